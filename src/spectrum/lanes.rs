@@ -1,0 +1,117 @@
+//! The wavelengths that a path carries: a small array with arithmetic.
+//!
+//! Plain loops over `[f32; N]` that the compiler turns into vector instructions; no vector type appears in a signature.
+//! `N` is [`LANES`] for a path, and 1 for a lane that goes on alone after a dispersive refraction.
+
+use std::ops::{Add, AddAssign, Div, Index, IndexMut, Mul, MulAssign, Sub};
+
+/// Wavelengths a path carries unless asked otherwise.
+pub const LANES: usize = 8;
+
+/// One value per wavelength of a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lanes<const N: usize = LANES>(pub [f32; N]);
+
+impl<const N: usize> Lanes<N> {
+    pub const ZERO: Self = Self([0.0; N]);
+    pub const ONE: Self = Self([1.0; N]);
+
+    pub fn splat(value: f32) -> Self {
+        Self([value; N])
+    }
+
+    pub fn from_fn(f: impl FnMut(usize) -> f32) -> Self {
+        Self(std::array::from_fn(f))
+    }
+
+    #[inline]
+    pub fn map(self, f: impl Fn(f32) -> f32) -> Self {
+        Self(std::array::from_fn(|i| f(self.0[i])))
+    }
+
+    #[inline]
+    pub fn zip(self, other: Self, f: impl Fn(f32, f32) -> f32) -> Self {
+        Self(std::array::from_fn(|i| f(self.0[i], other.0[i])))
+    }
+
+    /// Sum in lane order, so that it is the same on every machine.
+    #[inline]
+    pub fn sum(self) -> f32 {
+        self.0.iter().fold(0.0, |sum, &value| sum + value)
+    }
+
+    #[inline]
+    pub fn mean(self) -> f32 {
+        self.sum() * (1.0 / N as f32)
+    }
+
+    #[inline]
+    pub fn max(self) -> f32 {
+        self.0.iter().fold(f32::NEG_INFINITY, |max, &value| if value > max { value } else { max })
+    }
+
+    #[inline]
+    pub fn is_zero(self) -> bool {
+        self.0.iter().all(|&value| value == 0.0)
+    }
+}
+
+macro_rules! lanewise {
+    ($trait:ident, $method:ident, $op:tt) => {
+        impl<const N: usize> $trait for Lanes<N> {
+            type Output = Self;
+            #[inline]
+            fn $method(self, other: Self) -> Self {
+                self.zip(other, |a, b| a $op b)
+            }
+        }
+        impl<const N: usize> $trait<f32> for Lanes<N> {
+            type Output = Self;
+            #[inline]
+            fn $method(self, other: f32) -> Self {
+                self.map(|a| a $op other)
+            }
+        }
+    };
+}
+
+lanewise!(Add, add, +);
+lanewise!(Sub, sub, -);
+lanewise!(Mul, mul, *);
+lanewise!(Div, div, /);
+
+impl<const N: usize> AddAssign for Lanes<N> {
+    #[inline]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl<const N: usize> MulAssign for Lanes<N> {
+    #[inline]
+    fn mul_assign(&mut self, other: Self) {
+        *self = *self * other;
+    }
+}
+
+impl<const N: usize> MulAssign<f32> for Lanes<N> {
+    #[inline]
+    fn mul_assign(&mut self, other: f32) {
+        *self = *self * other;
+    }
+}
+
+impl<const N: usize> Index<usize> for Lanes<N> {
+    type Output = f32;
+    #[inline]
+    fn index(&self, lane: usize) -> &f32 {
+        &self.0[lane]
+    }
+}
+
+impl<const N: usize> IndexMut<usize> for Lanes<N> {
+    #[inline]
+    fn index_mut(&mut self, lane: usize) -> &mut f32 {
+        &mut self.0[lane]
+    }
+}

@@ -1,0 +1,5 @@
+//! Functions of wavelength.
+
+mod lanes;
+
+pub use lanes::{LANES, Lanes};
