@@ -39,7 +39,7 @@ def citation(references):
         out["authors"] = lines[0].removesuffix(".") if not re.search(r" [A-Z]\.$", lines[0]) else lines[0]
         out["title"] = lines[1].rstrip(".,")
         if found := re.match(r"(.*?)\s*\((\d{4})\)", lines[2]):
-            out["journal"] = found[1].replace(" ,", ",").strip().rstrip(",")
+            out["journal"] = re.sub(r"\s+", " ", re.sub(r",\s+(\d)", r" \1", found[1], count=1)).replace("–", "-").strip(" ,")
             out["year"] = int(found[2])
     return out
 

@@ -19,8 +19,7 @@ def number(x):
     """A TOML float: always with a point or an exponent."""
     if isinstance(x, Decimal):
         x = x.normalize()
-        plain = format(x, "f")
-        text = plain if len(plain) <= 12 or abs(x) >= Decimal("1e-4") else format(x, "e")
+        text = format(x, "f") if x == 0 or abs(x) >= Decimal("1e-3") else format(x, "e")
     else:
         text = repr(float(x))
     if "." not in text and "e" not in text.lower():
