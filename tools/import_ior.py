@@ -49,7 +49,11 @@ def table(model):
     count = model.length
     w = struct.unpack(f"<{count}f", model.wavelength_um)
     v = struct.unpack(f"<{count}f", model.values)
-    return [decimal32(x) * 1000 for x in w], [decimal32(x) for x in v]
+    # A few tables repeat a wavelength (in the infrared or ultraviolet): the first of the repeats stays.
+    keep = [i for i in range(count) if i == 0 or w[i] != w[i - 1]]
+    if any(w[b] < w[a] for a, b in zip(keep, keep[1:])):
+        raise ValueError("wavelengths are not in order")
+    return [decimal32(w[i]) * 1000 for i in keep], [decimal32(v[i]) for i in keep]
 
 
 def window(grid, low, high):
