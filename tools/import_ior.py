@@ -51,15 +51,16 @@ def table(model):
     v = struct.unpack(f"<{count}f", model.values)
     # A few tables repeat a wavelength (in the infrared or ultraviolet): the first of the repeats stays.
     keep = [i for i in range(count) if i == 0 or w[i] != w[i - 1]]
-    if any(w[b] < w[a] for a, b in zip(keep, keep[1:])):
-        raise ValueError("wavelengths are not in order")
     return [decimal32(w[i]) * 1000 for i in keep], [decimal32(v[i]) for i in keep]
 
 
 def window(grid, low, high):
     """Index range of the points inside [low, high] and one beyond at each end."""
     inside = [i for i, w in enumerate(grid) if low <= w <= high]
-    return max(inside[0] - 1, 0), min(inside[-1] + 2, len(grid))
+    first, last = max(inside[0] - 1, 0), min(inside[-1] + 2, len(grid))
+    if any(b <= a for a, b in zip(grid[first:last], grid[first + 1:last])):
+        raise ValueError("wavelengths are not in order")
+    return first, last
 
 
 def coefficients(model):
