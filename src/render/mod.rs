@@ -1,1 +1,96 @@
+//! From a scene to a film: rows × samples → paths.
+//!
+//! A render cannot fail. It is cut into passes of [`PASS`] samples over all rows, so that what there is at any time is a
+//! whole picture; the film's sums are exact, so neither the cut nor the threads change a bit of it.
 
+mod media;
+mod path;
+mod stone;
+
+use crate::film::{Film, Pixel};
+use crate::sampler::Sampler;
+use crate::scene::{Needs, Scene};
+use crate::spectrum::{Nodes, SpectrumId, Tables};
+use path::Path;
+use rayon::prelude::*;
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Samples a pixel gets before the next pass over the picture.
+pub const PASS: u32 = 16;
+
+/// Told how a render goes on, from any thread.
+pub trait Progress: Sync {
+    /// So many more samples are done.
+    fn advance(&self, samples: u64);
+}
+
+impl Progress for () {
+    fn advance(&self, _: u64) {}
+}
+
+/// A scene made ready for paths: its spectra tabulated at the nodes of its wavelengths.
+pub struct Kernel<'a> {
+    scene: &'a Scene,
+    needs: &'a Needs,
+    tables: Tables,
+    /// X, Y and Z per spectral radiance: observer × node width × 683 lm/W.
+    observer: [SpectrumId; 3],
+    max_depth: u32,
+}
+
+impl<'a> Kernel<'a> {
+    pub fn new(scene: &'a Scene, needs: &'a Needs) -> Self {
+        let nodes = Nodes::new(&needs.wavelength_density);
+        let mut tables = scene.spectra.tabulate(&nodes, scene.settings.lanes as usize);
+        let sets = f64::from(tables.sets());
+        let observer = nodes
+            .observer_weights(&scene.picture.observer)
+            .map(|by_node| tables.push(&by_node.iter().map(|weight| (weight * sets) as f32).collect::<Vec<_>>()));
+        Self { scene, needs, tables, observer, max_depth: scene.settings.max_depth.unwrap_or(u32::MAX) }
+    }
+
+    /// XYZ in cd/m² of one sample of one pixel.
+    #[inline]
+    fn sample<const N: usize>(&self, pixel: [u32; 2], index: u64) -> [f32; 3] {
+        let settings = &self.scene.settings;
+        let mut sampler = Sampler::new(settings.sampler, settings.seed, pixel, index);
+        let offset = sampler.next_set(self.tables.sets()) * N as u32;
+        let [dx, dy] = self.scene.filter.sample(sampler.next_2d());
+        let ray = self.scene.camera.ray(pixel[0] as f32 + 0.5 + dx, pixel[1] as f32 + 0.5 + dy);
+        let radiance = self.radiance(Path::<N>::new(ray, offset), &mut sampler);
+        self.observer.map(|weights| (radiance * self.tables.get(weights, offset)).sum())
+    }
+
+    fn row<const N: usize>(&self, row: &mut [Pixel], [x0, y]: [u32; 2], samples: &Range<u64>) {
+        for (pixel, x) in row.iter_mut().zip(x0..) {
+            for index in samples.clone() {
+                pixel.add(self.sample::<N>([x, y], index));
+            }
+        }
+    }
+}
+
+/// Adds samples `samples` of every pixel to a film of the scene's picture or a window of it.
+///
+/// Which samples and which window change nothing in a pixel but what is added to it: ranges and windows rendered apart and
+/// merged are the same film. Once `cancel` is set no more rows are begun.
+pub fn render(kernel: &Kernel, film: &mut Film, samples: Range<u64>, progress: &dyn Progress, cancel: &AtomicBool) {
+    let render_row = match kernel.scene.settings.lanes {
+        1 => Kernel::row::<1>,
+        4 => Kernel::row::<4>,
+        _ => Kernel::row::<8>,
+    };
+    let window = film.window();
+    for first in samples.clone().step_by(PASS as usize) {
+        let pass = first..(first + u64::from(PASS)).min(samples.end);
+        film.pixels_mut().par_chunks_mut(window.width as usize).zip(window.y0..window.y0 + window.height).for_each(
+            |(row, y)| {
+                if !cancel.load(Ordering::Relaxed) {
+                    render_row(kernel, row, [window.x0, y], &pass);
+                    progress.advance(row.len() as u64 * (pass.end - pass.start));
+                }
+            },
+        );
+    }
+}

@@ -1,1 +1,129 @@
+//! From files to a scene that can be rendered without failing: describe → resolve → needs.
 
+pub mod describe;
+mod error;
+mod forms;
+mod needs;
+mod resolve;
+
+pub use error::{Place, SceneError, Text, nearest};
+pub use needs::{Decision, Needs};
+pub use resolve::{Overrides, resolve};
+
+use crate::camera::{Camera, Filter};
+use crate::fresnel::FresnelModel;
+use crate::geometry::{ShapeId, World};
+use crate::light::Lights;
+use crate::spectrum::{About, Arena, Observer, SpectrumId};
+
+/// A scene with every name looked up, every unit converted and every check made.
+#[derive(Debug)]
+pub struct Scene {
+    pub spectra: Arena,
+    pub world: World,
+    /// By [`ShapeId`].
+    pub objects: Vec<Object>,
+    pub surfaces: Vec<Surface>,
+    /// The first one is the medium around everything.
+    pub media: Vec<Medium>,
+    pub lights: Lights,
+    pub camera: Camera,
+    pub filter: Filter,
+    pub settings: Settings,
+    pub picture: Picture,
+    pub data: Vec<DataSet>,
+    pub warnings: Vec<String>,
+    /// Identifies the scene's text, the files it names and the settings that change the picture.
+    pub hash: u64,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Object {
+    pub name: String,
+    pub material: String,
+    /// Index into [`Scene::surfaces`].
+    pub surface: u32,
+}
+
+/// What happens to light at an object.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Surface {
+    Diffuse { reflectance: SpectrumId },
+    Conductor { n: SpectrumId, k: SpectrumId, alpha: f32, model: FresnelModel },
+    /// The smooth boundary of a closed solid.
+    Dielectric { medium: MediumId, model: FresnelModel, inside: Inside },
+}
+
+/// How the inside of a dielectric solid is traced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Inside {
+    /// A convex solid with nothing in it: from facet to facet, all wavelengths at once, without asking the scene.
+    Alone,
+    /// Something may be inside, or it is not made of facets: every ray asks the scene.
+    General,
+}
+
+/// Index into [`Scene::media`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MediumId(pub u16);
+
+impl MediumId {
+    pub const OUTSIDE: Self = Self(0);
+}
+
+/// What fills a solid, or the space around all.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Medium {
+    pub name: String,
+    pub n: SpectrumId,
+    /// Per scene unit, natural base.
+    pub absorption: Option<SpectrumId>,
+    /// Whether n changes with wavelength.
+    pub dispersive: bool,
+}
+
+/// How long and how to render.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    pub width: u32,
+    pub height: u32,
+    /// x0, y0, x1, y1 in pixels, the upper ends excluded.
+    pub crop: [u32; 4],
+    pub samples: u32,
+    pub seed: u64,
+    pub max_depth: Option<u32>,
+    pub sampler: crate::sampler::Kind,
+    pub filter: describe::FilterName,
+    pub fresnel: Option<FresnelModel>,
+    /// Wavelengths a path carries: 1, 4 or 8.
+    pub lanes: u32,
+}
+
+/// How the film is to be developed.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    pub exposure: describe::ExposureValue,
+    /// Name of what is white.
+    pub white_balance: String,
+    /// XYZ of what is white, Y = 1.
+    pub white: [f64; 3],
+    pub gamut: describe::GamutName,
+    pub observer: Observer,
+}
+
+/// A data set that the scene uses, and for what.
+#[derive(Clone, Debug)]
+pub struct DataSet {
+    pub used_by: String,
+    pub about: About,
+}
+
+impl Scene {
+    pub fn object(&self, shape: ShapeId) -> &Object {
+        &self.objects[shape.index()]
+    }
+
+    pub fn medium(&self, id: MediumId) -> &Medium {
+        &self.media[usize::from(id.0)]
+    }
+}

@@ -1,0 +1,78 @@
+//! The inside of a cut stone: from facet to facet, all wavelengths at once, each in its own direction.
+//!
+//! The usual renderers drop all wavelengths but one at a dispersive interface. Here the lanes share every choice instead: at
+//! each facet all reflect with the probability p = Σ wᵢRᵢ / Σ wᵢ, else all leave, and lane i is weighted by Rᵢ/p or
+//! (1−Rᵢ)/(1−p). The sum of the weights is kept at every choice, so that no lane's weight exceeds N; a lane beyond its
+//! critical angle leaves with weight 0. Facets are half-spaces, met without epsilon and without leaks.
+
+use super::path::Path;
+use super::Kernel;
+use crate::bsdf::{self, Directions};
+use crate::fresnel::{self, FresnelModel};
+use crate::geometry::{Convex, Hit, Points, Shape};
+use crate::sampler::Sampler;
+use crate::scene::MediumId;
+use crate::spectrum::Lanes;
+
+/// Where lanes enter a stone, already refracted.
+pub struct Entry<'a, const N: usize> {
+    pub hit: &'a Hit,
+    pub directions: Directions<N>,
+    pub medium: MediumId,
+    pub model: FresnelModel,
+}
+
+/// Where lanes leave a stone, and whereto.
+pub struct Exits<const N: usize> {
+    pub origins: Points<N>,
+    pub directions: Directions<N>,
+}
+
+impl Kernel<'_> {
+    /// Follows a path's lanes inside a convex solid until they leave; `None` when the path ends inside.
+    pub fn trace_stone<const N: usize>(
+        &self,
+        entry: &Entry<N>,
+        path: &mut Path<N>,
+        sampler: &mut Sampler,
+    ) -> Option<Exits<N>> {
+        let Shape::Convex(solid) = self.scene.world.shape(entry.hit.shape) else { return None };
+        let inside = self.n(entry.medium, path.offset);
+        let outside = self.n(path.media.without(entry.medium), path.offset);
+        let mut origins = Points::splat(entry.hit.point);
+        let mut directions = entry.directions;
+        while path.depth < self.max_depth {
+            let exits = solid.exit_lanes(&origins, &directions);
+            origins = origins.advanced(&directions, &exits.t);
+            self.absorb_each(path, entry.medium, &exits.t);
+            let normals = facet_normals(solid, &exits.facet);
+            let cos_theta_i = normals.dot(&directions);
+            let boundary = fresnel::dielectric::fresnel(entry.model, &inside, &outside, &cos_theta_i);
+            let choice = bsdf::choose(path.throughput, boundary.r, sampler.next());
+            path.throughput *= choice.weight;
+            path.depth += 1;
+            if !choice.reflect {
+                let directions = directions.refracted(&normals, &inside, &outside, &cos_theta_i, &boundary.cos_theta_t);
+                return Some(Exits { origins, directions });
+            }
+            directions = directions.reflected(&normals, &cos_theta_i);
+            if !path.survives(sampler) {
+                return None;
+            }
+        }
+        None
+    }
+
+    /// Absorption over a length of its own for each lane.
+    #[inline]
+    fn absorb_each<const N: usize>(&self, path: &mut Path<N>, medium: MediumId, lengths: &[f32; N]) {
+        let Some(absorption) = self.scene.medium(medium).absorption else { return };
+        let optical_depth = self.tables.get::<N>(absorption, path.offset) * Lanes(*lengths);
+        path.throughput *= optical_depth.map(|depth| libm::expf(-depth));
+    }
+}
+
+#[inline]
+fn facet_normals<const N: usize>(solid: &Convex, facets: &[u32; N]) -> Directions<N> {
+    Directions::from_fn(|lane| solid.normal(facets[lane]))
+}

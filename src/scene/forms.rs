@@ -1,0 +1,169 @@
+//! Values that may be written in more than one form: a name, a number, a list or a table.
+//!
+//! Untagged serde enums would do it too, but they lose the place of what is wrong inside a table; one visitor keeps it.
+
+use super::describe::{AbsorptionSource, ExposureValue, IndexSource, LightSpectrum, OwnLight, ReflectanceSource, Scale};
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
+use std::fmt;
+use std::marker::PhantomData;
+
+/// The forms a value takes; those that are not overridden are type errors that say what was expected.
+trait Forms<'de>: Sized {
+    const EXPECTED: &'static str;
+
+    fn name<E: Error>(_: &str) -> Result<Self, E> {
+        Err(unexpected::<Self, E>("a string"))
+    }
+
+    fn number<E: Error>(_: f64) -> Result<Self, E> {
+        Err(unexpected::<Self, E>("a number"))
+    }
+
+    fn list<A: SeqAccess<'de>>(_: A) -> Result<Self, A::Error> {
+        Err(unexpected::<Self, A::Error>("a list"))
+    }
+
+    fn table<A: MapAccess<'de>>(_: A) -> Result<Self, A::Error> {
+        Err(unexpected::<Self, A::Error>("a table"))
+    }
+}
+
+fn unexpected<'de, T: Forms<'de>, E: Error>(found: &str) -> E {
+    E::custom(format!("invalid type: {found}, expected {}", T::EXPECTED))
+}
+
+struct FormVisitor<T>(PhantomData<T>);
+
+impl<'de, T: Forms<'de>> Visitor<'de> for FormVisitor<T> {
+    type Value = T;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(T::EXPECTED)
+    }
+
+    fn visit_str<E: Error>(self, value: &str) -> Result<T, E> {
+        T::name(value)
+    }
+
+    fn visit_i64<E: Error>(self, value: i64) -> Result<T, E> {
+        T::number(value as f64)
+    }
+
+    fn visit_f64<E: Error>(self, value: f64) -> Result<T, E> {
+        T::number(value)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<T, A::Error> {
+        T::list(list)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, table: A) -> Result<T, A::Error> {
+        T::table(table)
+    }
+}
+
+macro_rules! deserialize_by_form {
+    ($($type:ty),*) => {$(
+        impl<'de> Deserialize<'de> for $type {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                deserializer.deserialize_any(FormVisitor::<Self>(PhantomData))
+            }
+        }
+    )*};
+}
+
+deserialize_by_form!(AbsorptionSource, ExposureValue, IndexSource, LightSpectrum, ReflectanceSource, Scale);
+
+impl<'de> Forms<'de> for ExposureValue {
+    const EXPECTED: &'static str = "\"auto\" or an exposure value";
+
+    fn name<E: Error>(name: &str) -> Result<Self, E> {
+        if name == "auto" { Ok(Self::Auto) } else { Err(unexpected::<Self, E>(&format!("the string \"{name}\""))) }
+    }
+
+    fn number<E: Error>(ev: f64) -> Result<Self, E> {
+        Ok(Self::Ev(ev))
+    }
+}
+
+impl<'de> Forms<'de> for LightSpectrum {
+    const EXPECTED: &'static str = "an illuminant's name or file, or one of { blackbody = K }, { daylight = K }, { table = … }, { lines = … }";
+
+    fn name<E: Error>(name: &str) -> Result<Self, E> {
+        Ok(Self::Name(name.to_owned()))
+    }
+
+    fn table<A: MapAccess<'de>>(table: A) -> Result<Self, A::Error> {
+        OwnLight::deserialize(MapAccessDeserializer::new(table)).map(Self::Own)
+    }
+}
+
+impl<'de> Forms<'de> for IndexSource {
+    const EXPECTED: &'static str = "a data set's name or file, an index, or { n = …, k = … }";
+
+    fn name<E: Error>(name: &str) -> Result<Self, E> {
+        Ok(Self::Name(name.to_owned()))
+    }
+
+    fn number<E: Error>(n: f64) -> Result<Self, E> {
+        Ok(Self::Constant { n, k: 0.0 })
+    }
+
+    fn table<A: MapAccess<'de>>(table: A) -> Result<Self, A::Error> {
+        #[derive(serde::Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct Constant {
+            n: f64,
+            #[serde(default)]
+            k: f64,
+        }
+        let Constant { n, k } = Constant::deserialize(MapAccessDeserializer::new(table))?;
+        Ok(Self::Constant { n, k })
+    }
+}
+
+impl<'de> Forms<'de> for AbsorptionSource {
+    const EXPECTED: &'static str = "an absorption data set's name or file, or a coefficient in 1/m";
+
+    fn name<E: Error>(name: &str) -> Result<Self, E> {
+        Ok(Self::Name(name.to_owned()))
+    }
+
+    fn number<E: Error>(per_metre: f64) -> Result<Self, E> {
+        Ok(Self::PerMetre(per_metre))
+    }
+}
+
+impl<'de> Forms<'de> for ReflectanceSource {
+    const EXPECTED: &'static str = "a reflectance data set's name or file, a number 0…1, or { rgb = [r, g, b] }";
+
+    fn name<E: Error>(name: &str) -> Result<Self, E> {
+        Ok(Self::Name(name.to_owned()))
+    }
+
+    fn number<E: Error>(value: f64) -> Result<Self, E> {
+        Ok(Self::Constant(value))
+    }
+
+    fn table<A: MapAccess<'de>>(table: A) -> Result<Self, A::Error> {
+        #[derive(serde::Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct Rgb {
+            rgb: [f64; 3],
+        }
+        Rgb::deserialize(MapAccessDeserializer::new(table)).map(|Rgb { rgb }| Self::Rgb(rgb))
+    }
+}
+
+impl<'de> Forms<'de> for Scale {
+    const EXPECTED: &'static str = "a factor, or three of them for x, y and z";
+
+    fn number<E: Error>(factor: f64) -> Result<Self, E> {
+        Ok(Self([factor; 3]))
+    }
+
+    fn list<A: SeqAccess<'de>>(list: A) -> Result<Self, A::Error> {
+        <[f64; 3]>::deserialize(SeqAccessDeserializer::new(list)).map(Self)
+    }
+}
