@@ -81,13 +81,18 @@ impl Lights {
             .collect();
         let mut of_shape = vec![None; shapes];
         for (index, emitter) in emitters.iter().enumerate() {
-            of_shape[emitter.shape.index()] = Some(index as u32);
+            of_shape[emitter.shape.0 as usize] = Some(index as u32);
         }
         Self { emitters, cumulative, of_shape, environment }
     }
 
     pub fn emitters(&self) -> &[Emitter] {
         &self.emitters
+    }
+
+    /// Whether nothing shines at all.
+    pub fn is_dark(&self) -> bool {
+        self.environment == Environment::Dark && self.emitters.iter().all(|emitter| emitter.power == 0.0)
     }
 
     fn probability(&self, index: usize) -> f32 {
@@ -114,14 +119,14 @@ impl Lights {
     /// What shines at a hit towards where the ray came from.
     #[inline]
     pub fn emitted(&self, hit: &Hit) -> Option<SpectrumId> {
-        let emitter = self.emitters[self.of_shape[hit.shape.index()]? as usize];
+        let emitter = self.emitters[self.of_shape[hit.shape.0 as usize]? as usize];
         (hit.side == Side::Outside || emitter.two_sided).then_some(emitter.radiance)
     }
 
     /// The density with which [`Self::sample`] gives the direction from `from` to a hit on a light, per steradian.
     #[inline]
     pub fn pdf(&self, world: &World, from: Vec3, direction: Vec3, hit: &Hit) -> f32 {
-        let Some(index) = self.of_shape[hit.shape.index()] else { return 0.0 };
+        let Some(index) = self.of_shape[hit.shape.0 as usize] else { return 0.0 };
         world.shape(hit.shape).pdf_toward(from, direction, hit) * self.probability(index as usize)
     }
 }

@@ -3,6 +3,7 @@
 //! Kinds are externally tagged (`shape.sphere = { … }`, `[conductor]`), so that an error points at the exact place; untagged
 //! and flattened structures lose it.
 
+use crate::fresnel::FresnelModel;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use toml::Spanned;
@@ -45,7 +46,7 @@ pub struct Render {
     #[serde(default)]
     pub sampler: SamplerName,
     /// A Fresnel model for the whole render.
-    pub fresnel: Option<Spanned<String>>,
+    pub fresnel: Option<FresnelModel>,
 }
 
 #[derive(Clone, Copy, Debug, Default, Deserialize, Serialize, PartialEq, Eq)]
@@ -193,7 +194,7 @@ pub struct Conductor {
     pub roughness: Option<Number>,
     /// r with α = r².
     pub perceptual_roughness: Option<Number>,
-    pub fresnel: Option<Spanned<String>>,
+    pub fresnel: Option<FresnelModel>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -201,7 +202,7 @@ pub struct Conductor {
 pub struct Dielectric {
     pub ior: Spanned<IndexSource>,
     pub absorption: Option<Spanned<AbsorptionSource>>,
-    pub fresnel: Option<Spanned<String>>,
+    pub fresnel: Option<FresnelModel>,
 }
 
 #[derive(Debug, Deserialize)]

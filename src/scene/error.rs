@@ -1,6 +1,6 @@
 //! Errors that say where, what was expected, and what was probably meant.
 
-use crate::spectrum::SpectrumError;
+use crate::spectrum::{SpectrumError, nearest};
 use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -123,17 +123,6 @@ impl From<SpectrumError> for SceneError {
     fn from(error: SpectrumError) -> Self {
         Self::new(error)
     }
-}
-
-/// The name nearest to `wanted`, if one is near enough to have been meant.
-pub fn nearest<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let wanted = wanted.to_lowercase();
-    known
-        .into_iter()
-        .map(|name| (strsim::jaro_winkler(&wanted, &name.to_lowercase()), name))
-        .filter(|(likeness, _)| *likeness > 0.75)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, name)| name)
 }
 
 /// A suggestion from serde's words: "unknown field `x`, expected one of `a`, `b`".

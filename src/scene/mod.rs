@@ -6,7 +6,7 @@ mod forms;
 mod needs;
 mod resolve;
 
-pub use error::{Place, SceneError, Text, nearest};
+pub use error::{Place, SceneError, Text};
 pub use needs::{Decision, Needs};
 pub use resolve::{Overrides, resolve};
 
@@ -33,8 +33,8 @@ pub struct Scene {
     pub picture: Picture,
     pub data: Vec<DataSet>,
     pub warnings: Vec<String>,
-    /// Identifies the scene's text, the files it names and the settings that change the picture.
-    pub hash: u64,
+    /// The scene's own text and the materials that it names.
+    pub sources: Vec<Text>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -48,6 +48,8 @@ pub struct Object {
 /// What happens to light at an object.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Surface {
+    /// What only shines.
+    Black,
     Diffuse { reflectance: SpectrumId },
     Conductor { n: SpectrumId, k: SpectrumId, alpha: f32, model: FresnelModel },
     /// The smooth boundary of a closed solid.
@@ -92,7 +94,7 @@ pub struct Settings {
     pub samples: u32,
     pub seed: u64,
     pub max_depth: Option<u32>,
-    pub sampler: crate::sampler::Kind,
+    pub sampler: describe::SamplerName,
     pub filter: describe::FilterName,
     pub fresnel: Option<FresnelModel>,
     /// Wavelengths a path carries: 1, 4 or 8.
@@ -109,6 +111,7 @@ pub struct Picture {
     pub white: [f64; 3],
     pub gamut: describe::GamutName,
     pub observer: Observer,
+    pub observer_name: String,
 }
 
 /// A data set that the scene uses, and for what.
@@ -120,7 +123,7 @@ pub struct DataSet {
 
 impl Scene {
     pub fn object(&self, shape: ShapeId) -> &Object {
-        &self.objects[shape.index()]
+        &self.objects[shape.0 as usize]
     }
 
     pub fn medium(&self, id: MediumId) -> &Medium {

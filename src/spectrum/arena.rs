@@ -6,31 +6,23 @@ use super::{Lanes, Nodes, Spectrum};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct SpectrumId(u32);
 
-/// A spectrum times a factor, which carries units: a relative illuminant becomes spectral radiance.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Scaled {
-    pub spectrum: Spectrum,
-    pub factor: f64,
-}
-
 /// Every spectrum that a scene refers to. Adding an equal one gives the same id.
 #[derive(Clone, Debug, Default)]
 pub struct Arena {
-    spectra: Vec<Scaled>,
+    spectra: Vec<Spectrum>,
 }
 
 impl Arena {
-    pub fn add(&mut self, spectrum: Spectrum, factor: f64) -> SpectrumId {
-        let scaled = Scaled { spectrum, factor };
-        let known = self.spectra.iter().position(|other| *other == scaled);
+    pub fn add(&mut self, spectrum: Spectrum) -> SpectrumId {
+        let known = self.spectra.iter().position(|other| *other == spectrum);
         let index = known.unwrap_or_else(|| {
-            self.spectra.push(scaled);
+            self.spectra.push(spectrum);
             self.spectra.len() - 1
         });
         SpectrumId(index as u32)
     }
 
-    pub fn get(&self, id: SpectrumId) -> &Scaled {
+    pub fn get(&self, id: SpectrumId) -> &Spectrum {
         &self.spectra[id.0 as usize]
     }
 
@@ -45,9 +37,8 @@ impl Arena {
     /// The values of every spectrum at every node, for paths of `lanes` wavelengths.
     pub fn tabulate(&self, nodes: &Nodes, lanes: usize) -> Tables {
         let mut tables = Tables { values: Vec::with_capacity(self.len() * nodes.len()), lanes, nodes: nodes.len() };
-        for Scaled { spectrum, factor } in &self.spectra {
-            let by_node = nodes.tabulate(spectrum);
-            tables.push(&by_node.iter().map(|&value| (f64::from(value) * factor) as f32).collect::<Vec<_>>());
+        for spectrum in &self.spectra {
+            tables.push(&nodes.tabulate(spectrum));
         }
         tables
     }

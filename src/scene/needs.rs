@@ -1,0 +1,156 @@
+//! Which physics a scene uses, and why: what it does not need is neither loaded nor run.
+
+use super::{Inside, MediumId, Scene, Surface};
+use crate::light::Environment;
+use crate::spectrum::Density;
+use serde::Serialize;
+
+/// What the renderer runs for a scene.
+#[derive(Debug)]
+pub struct Needs {
+    /// How wavelengths are chosen.
+    pub wavelength_density: Density,
+    /// Whether there are lights to aim at and surfaces that can be aimed from.
+    pub light_sampling: bool,
+    pub decisions: Vec<Decision>,
+}
+
+/// One part of the physics: whether it runs, and the reason.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Decision {
+    pub part: &'static str,
+    pub used: bool,
+    pub reason: String,
+}
+
+impl Needs {
+    pub fn of(scene: &Scene) -> Self {
+        let lines: Vec<f64> = light_lines(scene);
+        let decisions = vec![
+            wavelengths(&lines),
+            dispersion(scene),
+            stones(scene),
+            absorption(scene),
+            immersion(scene),
+            rough_metal(scene),
+            light_sampling(scene),
+            environment(scene),
+        ];
+        Self {
+            wavelength_density: Density::with_lines(&lines),
+            light_sampling: light_sampling(scene).used,
+            decisions,
+        }
+    }
+}
+
+fn decision(part: &'static str, used: bool, reason: impl Into<String>) -> Decision {
+    Decision { part, used, reason: reason.into() }
+}
+
+/// Names of the objects for which something holds, for people.
+fn objects_with(scene: &Scene, holds: impl Fn(&Surface) -> bool) -> Vec<&str> {
+    let has = |object: &&super::Object| holds(&scene.surfaces[object.surface as usize]);
+    scene.objects.iter().filter(has).map(|object| object.name.as_str()).collect()
+}
+
+fn listed(names: &[&str]) -> String {
+    match names {
+        [] => "none".into(),
+        [first @ .., last] if first.is_empty() => (*last).into(),
+        [first, second, third, rest @ ..] if !rest.is_empty() => format!("{first}, {second}, {third} and {} more", rest.len()),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}
+
+fn light_lines(scene: &Scene) -> Vec<f64> {
+    let lights = scene.lights.emitters().iter().map(|emitter| emitter.radiance);
+    let environment = match scene.lights.environment {
+        Environment::Dark => vec![],
+        Environment::Constant(id) => vec![id],
+        Environment::Gradient { nadir, horizon, zenith } => vec![nadir, horizon, zenith],
+    };
+    let mut lines: Vec<f64> =
+        lights.chain(environment).flat_map(|id| scene.spectra.get(id).lines()).map(|line| line.nm).collect();
+    lines.sort_by(f64::total_cmp);
+    lines.dedup();
+    lines
+}
+
+fn wavelengths(lines: &[f64]) -> Decision {
+    match lines.len() {
+        0 => decision("emission lines", false, "no light has any: wavelengths follow the visible density"),
+        count => decision("emission lines", true, format!("{count} in the lights: half of the wavelengths lie around them")),
+    }
+}
+
+fn dispersion(scene: &Scene) -> Decision {
+    let disperses = |surface: &Surface| match surface {
+        Surface::Dielectric { medium, .. } => {
+            scene.medium(*medium).dispersive || scene.medium(MediumId::OUTSIDE).dispersive
+        }
+        _ => false,
+    };
+    match objects_with(scene, disperses) {
+        names if names.is_empty() => decision("dispersion", false, "no dielectric's index changes with wavelength"),
+        names => decision("dispersion", true, format!("the index changes with wavelength in {}: lanes part there", listed(&names))),
+    }
+}
+
+fn stones(scene: &Scene) -> Decision {
+    let alone = |surface: &Surface| matches!(surface, Surface::Dielectric { inside: Inside::Alone, .. });
+    match objects_with(scene, alone) {
+        names if names.is_empty() => decision("stone kernel", false, "no convex dielectric solid with nothing in it"),
+        names => {
+            let reason = format!("nothing reaches into {}: traced facet by facet, all lanes at once", listed(&names));
+            decision("stone kernel", true, reason)
+        }
+    }
+}
+
+fn absorption(scene: &Scene) -> Decision {
+    let names: Vec<&str> =
+        scene.media.iter().filter(|medium| medium.absorption.is_some()).map(|medium| medium.name.as_str()).collect();
+    match names.is_empty() {
+        true => decision("absorption", false, "every medium is clear"),
+        false => decision("absorption", true, format!("{} absorbs along the path (Beer–Lambert)", listed(&names))),
+    }
+}
+
+fn immersion(scene: &Scene) -> Decision {
+    let outside = scene.medium(MediumId::OUTSIDE);
+    match outside.name.as_str() {
+        "vacuum" => decision("outside medium", false, "n = 1 around everything"),
+        name => decision("outside medium", true, format!("everything is in {name}")),
+    }
+}
+
+fn rough_metal(scene: &Scene) -> Decision {
+    let rough = |surface: &Surface| matches!(surface, Surface::Conductor { alpha, .. } if *alpha > 0.0);
+    match objects_with(scene, rough) {
+        names if names.is_empty() => decision("microfacets", false, "no rough conductor"),
+        names => decision("microfacets", true, format!("{} is rough", listed(&names))),
+    }
+}
+
+fn light_sampling(scene: &Scene) -> Decision {
+    let shining = scene.lights.emitters().iter().filter(|emitter| emitter.power > 0.0).count();
+    let lit = |surface: &Surface| match surface {
+        Surface::Diffuse { .. } => true,
+        Surface::Conductor { alpha, .. } => *alpha > 0.0,
+        Surface::Black | Surface::Dielectric { .. } => false,
+    };
+    match (shining, objects_with(scene, lit).is_empty()) {
+        (0, _) => decision("light sampling", false, "no shape shines"),
+        (_, true) => decision("light sampling", false, "every surface is smooth: its one direction finds the light or not"),
+        (count, false) => decision("light sampling", true, format!("{count} shapes shine on surfaces that scatter")),
+    }
+}
+
+fn environment(scene: &Scene) -> Decision {
+    match scene.lights.environment {
+        Environment::Dark => decision("environment", false, "none"),
+        Environment::Constant(_) => decision("environment", true, "constant: found by the directions that surfaces choose"),
+        Environment::Gradient { .. } => decision("environment", true, "gradient: found by the directions that surfaces choose"),
+    }
+}

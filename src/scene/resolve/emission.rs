@@ -1,0 +1,140 @@
+//! Lights: a spectrum and a strength become spectral radiance in W m⁻² sr⁻¹ nm⁻¹.
+
+use super::Resolver;
+use crate::light::Environment;
+use crate::scene::SceneError;
+use crate::scene::describe::{self, LightSpectrum, OwnLight};
+use crate::spectrum::{
+    Daylight, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Line, Outside, Spectrum, SpectrumId, Table, integrate, luminance,
+};
+use std::ops::Range;
+
+/// A light with the strength it was given.
+pub struct Resolved {
+    pub id: SpectrumId,
+    /// cd/m².
+    pub luminance: f64,
+}
+
+impl Resolver<'_> {
+    pub fn environment(&mut self, environment: &describe::Environment) -> Result<Environment, SceneError> {
+        Ok(match environment {
+            describe::Environment::Constant(emission) => {
+                let light = self.emission(emission, "the environment")?;
+                self.white_candidates.push((light.luminance * ENVIRONMENT_AREA, light.id));
+                Environment::Constant(light.id)
+            }
+            describe::Environment::Gradient(gradient) => {
+                let mut part = |emission, name| self.emission(emission, name);
+                let zenith = part(&gradient.zenith, "the environment's zenith")?;
+                let horizon = part(&gradient.horizon, "the environment's horizon")?;
+                let nadir = part(&gradient.nadir, "the environment's nadir")?;
+                for light in [&zenith, &horizon, &nadir] {
+                    self.white_candidates.push((light.luminance * ENVIRONMENT_AREA / 3.0, light.id));
+                }
+                Environment::Gradient { nadir: nadir.id, horizon: horizon.id, zenith: zenith.id }
+            }
+        })
+    }
+
+    /// Spectral radiance of a light, checked and scaled.
+    pub fn emission(&mut self, emission: &describe::Emission, used_by: &str) -> Result<Resolved, SceneError> {
+        let span = emission.spectrum.span();
+        let (spectrum, absolute) = self.light_spectrum(emission.spectrum.get_ref(), &span, used_by)?;
+        let factor = self.strength(emission, &spectrum, absolute, &span)?;
+        let spectrum = spectrum.scaled(factor);
+        let luminance = luminance(&spectrum, &self.observer_1931);
+        Ok(Resolved { id: self.spectra.add(spectrum), luminance })
+    }
+
+    /// The spectrum, and whether its values are already radiance.
+    fn light_spectrum(
+        &mut self,
+        source: &LightSpectrum,
+        span: &Range<usize>,
+        used_by: &str,
+    ) -> Result<(Spectrum, bool), SceneError> {
+        let own = match source {
+            LightSpectrum::Name(name) => {
+                let found = self.library.illuminant(name, self.text.base()).map_err(|error| self.text.error(span, error))?;
+                self.note_data(used_by, &found.about);
+                return Ok((found.spectrum.clone(), false));
+            }
+            LightSpectrum::Own(own) => own,
+        };
+        Ok(match own {
+            OwnLight::Blackbody(kelvin) => {
+                let value = self.positive(kelvin, "a temperature in K")?;
+                (Spectrum::Blackbody { kelvin: value }, true)
+            }
+            OwnLight::Daylight(kelvin) => {
+                let daylight = Daylight::new(*kelvin.get_ref()).map_err(|error| self.text.error(&kelvin.span(), error))?;
+                (Spectrum::Daylight(daylight), false)
+            }
+            OwnLight::Table(table) => (self.own_table(table, span)?, false),
+            OwnLight::Lines(lines) => (self.lines(lines, span)?, false),
+        })
+    }
+
+    fn own_table(&self, table: &describe::OwnTable, span: &Range<usize>) -> Result<Spectrum, SceneError> {
+        let error = |message: String| Err(self.text.error(span, message));
+        let (nm, value) = (&table.wavelength_nm, &table.value);
+        if nm.len() != value.len() || nm.len() < 2 {
+            return error(format!("{} wavelengths and {} values: a table needs at least two pairs", nm.len(), value.len()));
+        }
+        if let Some(at) = nm.windows(2).position(|pair| !(pair[0] < pair[1])) {
+            return error(format!("wavelengths must grow: {} nm is followed by {} nm", nm[at], nm[at + 1]));
+        }
+        if let Some(bad) = nm.iter().chain(value).find(|number| !(number.is_finite() && **number >= 0.0)) {
+            return error(format!("{bad} in a light's table: wavelengths and values are finite and not negative"));
+        }
+        let points: Vec<_> = nm.iter().copied().zip(value.iter().copied()).collect();
+        Ok(Spectrum::Table(Table::from_points(&points, Outside::Zero)))
+    }
+
+    fn lines(&self, lines: &[[f64; 2]], span: &Range<usize>) -> Result<Spectrum, SceneError> {
+        let fits = |&[nm, power]: &[f64; 2]| (LAMBDA_MIN_NM..=LAMBDA_MAX_NM).contains(&nm) && power.is_finite() && power > 0.0;
+        if let Some([nm, power]) = lines.iter().find(|line| !fits(line)) {
+            let message = format!("a line of power {power} at {nm} nm: lines lie in 360–830 nm and have a power above 0");
+            return Err(self.text.error(span, message));
+        }
+        Ok(Spectrum::Lines(lines.iter().map(|&[nm, power]| Line { nm, power }).collect()))
+    }
+
+    /// The factor that gives a spectrum the strength asked for.
+    fn strength(
+        &self,
+        emission: &describe::Emission,
+        spectrum: &Spectrum,
+        absolute: bool,
+        span: &Range<usize>,
+    ) -> Result<f64, SceneError> {
+        let given = [("luminance", &emission.luminance), ("radiance", &emission.radiance), ("scale", &emission.scale)];
+        let mut given = given.iter().filter_map(|(name, value)| value.as_ref().map(|value| (*name, value)));
+        let Some((name, number)) = given.next() else {
+            if absolute {
+                return Ok(1.0);
+            }
+            let message = "this spectrum is relative: how strong is it?";
+            return Err(self.text.error(span, message).help("give `luminance` in cd/m² or `radiance` in W m⁻² sr⁻¹"));
+        };
+        if let Some((other, second)) = given.next() {
+            return Err(self.text.error(&second.span(), format!("`{name}` and `{other}` both say how strong the light is")));
+        }
+        let value = self.not_negative(number, name)?;
+        if name == "scale" {
+            return Ok(value);
+        }
+        let own = match name {
+            "luminance" => luminance(spectrum, &self.observer_1931),
+            _ => integrate(&[spectrum]),
+        };
+        if own > 0.0 {
+            return Ok(value / own);
+        }
+        Err(self.text.error(span, format!("this spectrum has no light in 360–830 nm, so no factor gives it a {name}")))
+    }
+}
+
+/// What the environment counts for against lights of a known area when the strongest is looked for: it surrounds all.
+const ENVIRONMENT_AREA: f64 = 1e3;

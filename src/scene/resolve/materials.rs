@@ -1,0 +1,220 @@
+//! Materials: names become data sets, data sets become spectra of the scene.
+
+use super::Resolver;
+use crate::fresnel::FresnelModel;
+use crate::scene::describe::{self, AbsorptionSource, IndexSource, ReflectanceSource};
+use crate::scene::{Inside, Medium, MediumId, SceneError, Surface, Text};
+use crate::spectrum::{About, Ior, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Outside, Spectrum, SpectrumError, Table, nearest, upsample};
+use std::ops::Range;
+use std::sync::Arc;
+use toml::Spanned;
+
+/// A material's description with the text it stands in, so that its errors point there.
+struct Described {
+    name: String,
+    text: Text,
+    material: describe::Material,
+    span: Range<usize>,
+}
+
+impl Resolver<'_> {
+    /// The surface of a material by its name in this scene or in the library.
+    pub fn material(&mut self, name: &Spanned<String>) -> Result<u32, SceneError> {
+        if let Some(&known) = self.by_name.get(name.get_ref()) {
+            return Ok(known);
+        }
+        let described = self.described(name)?;
+        let surface = self.surface(&described)?;
+        self.surfaces.push(surface);
+        let index = self.surfaces.len() as u32 - 1;
+        self.by_name.insert(name.get_ref().clone(), index);
+        Ok(index)
+    }
+
+    /// The medium around everything, by the name of a dielectric.
+    pub fn outside(&mut self, name: &Spanned<String>) -> Result<(), SceneError> {
+        let described = self.described(name)?;
+        let Some(dielectric) = &described.material.dielectric else {
+            let message = format!("`{}` is no dielectric: what surrounds a scene must let light through", name.get_ref());
+            return Err(self.text.error(&name.span(), message));
+        };
+        self.media[0] = self.medium(&described, dielectric)?;
+        Ok(())
+    }
+
+    fn described(&mut self, name: &Spanned<String>) -> Result<Described, SceneError> {
+        let wanted = name.get_ref();
+        if let Some(material) = self.own_materials.remove(wanted) {
+            let span = material.span();
+            return Ok(Described { name: wanted.clone(), text: self.text.clone(), material: material.into_inner(), span });
+        }
+        let found = self.library.material(wanted).map_err(|error| self.unknown_material(name, error))?;
+        let text = Text::new(found.path, found.text);
+        let material = text.parse()?;
+        self.sources.push(text.clone());
+        Ok(Described { name: wanted.clone(), text, material, span: 0..0 })
+    }
+
+    fn unknown_material(&self, name: &Spanned<String>, error: SpectrumError) -> SceneError {
+        let own = nearest(name.get_ref(), self.own_names.iter().map(String::as_str));
+        let error = self.text.error(&name.span(), error);
+        match own {
+            Some(own) => error.help(format!("this scene has a material `{own}`")),
+            None => error,
+        }
+    }
+
+    fn surface(&mut self, described: &Described) -> Result<Surface, SceneError> {
+        let Described { material, text, span, .. } = described;
+        match (&material.conductor, &material.dielectric, &material.diffuse) {
+            (Some(conductor), None, None) => self.conductor(described, conductor.get_ref()),
+            (None, Some(dielectric), None) => {
+                let medium = self.medium(described, dielectric)?;
+                self.media.push(medium);
+                let medium = MediumId(self.media.len() as u16 - 1);
+                Ok(Surface::Dielectric { medium, model: self.model(dielectric.get_ref().fresnel), inside: Inside::General })
+            }
+            (None, None, Some(diffuse)) => self.diffuse(described, diffuse.get_ref()),
+            (None, None, None) => {
+                Err(text.error(span, format!("material `{}` is of no kind", described.name))
+                    .help("give it one of [conductor], [dielectric], [diffuse]"))
+            }
+            _ => Err(text.error(span, format!("material `{}` is of more than one kind", described.name))),
+        }
+    }
+
+    /// The render's model wins over the material's, so that models can be compared by one word.
+    fn model(&self, own: Option<FresnelModel>) -> FresnelModel {
+        self.fresnel.or(own).unwrap_or(FresnelModel::Exact)
+    }
+
+    fn conductor(&mut self, described: &Described, conductor: &describe::Conductor) -> Result<Surface, SceneError> {
+        let ior = self.ior(described, &conductor.ior)?;
+        let alpha = roughness(&described.text, conductor)?;
+        Ok(Surface::Conductor {
+            n: self.spectra.add(ior.n.clone()),
+            k: self.spectra.add(ior.k.clone()),
+            alpha: alpha as f32,
+            model: self.model(conductor.fresnel),
+        })
+    }
+
+    fn ior(&mut self, described: &Described, source: &Spanned<IndexSource>) -> Result<Arc<Ior>, SceneError> {
+        let text = &described.text;
+        match source.get_ref() {
+            IndexSource::Name(name) => {
+                let found = self.library.ior(name, text.base()).map_err(|error| text.error(&source.span(), error))?;
+                self.note_data(&described.name, &found.about);
+                Ok(found)
+            }
+            &IndexSource::Constant { n, k } => {
+                if !(n > 0.0 && n.is_finite() && k >= 0.0 && k.is_finite()) {
+                    let message = format!("n = {n}, k = {k}: n must be above 0, k not negative, both finite");
+                    return Err(text.error(&source.span(), message));
+                }
+                Ok(Arc::new(Ior::constant(&described.name, n, k)))
+            }
+        }
+    }
+
+    fn medium(&mut self, described: &Described, dielectric: &Spanned<describe::Dielectric>) -> Result<Medium, SceneError> {
+        let source = &dielectric.get_ref().ior;
+        let ior = self.ior(described, source)?;
+        let absorption = match &dielectric.get_ref().absorption {
+            Some(absorption) => self.absorption(described, absorption)?,
+            None => absorption_of_k(&ior.k),
+        };
+        let absorption = match absorption {
+            None => None,
+            Some(per_metre) => {
+                let metres = self.meters_per_unit.ok_or_else(|| self.needs_scale(described))?;
+                Some(self.spectra.add(per_metre.scaled(metres)))
+            }
+        };
+        let dispersive = !is_constant(&ior.n);
+        Ok(Medium { name: described.name.clone(), n: self.spectra.add(ior.n.clone()), absorption, dispersive })
+    }
+
+    fn needs_scale(&self, described: &Described) -> SceneError {
+        let message = format!("`{}` absorbs light, so the scene must say how large it is", described.name);
+        self.text.whole(message).help("add `meters_per_unit = …` at the top, 0.001 if the scene is in millimetres")
+    }
+
+    /// In m⁻¹; `None` where nothing is absorbed.
+    fn absorption(
+        &mut self,
+        described: &Described,
+        source: &Spanned<AbsorptionSource>,
+    ) -> Result<Option<Spectrum>, SceneError> {
+        let text = &described.text;
+        match source.get_ref() {
+            AbsorptionSource::Name(name) => {
+                let found =
+                    self.library.absorption(name, text.base()).map_err(|error| text.error(&source.span(), error))?;
+                self.note_data(&described.name, &found.about);
+                Ok(Some(found.spectrum.clone()))
+            }
+            &AbsorptionSource::PerMetre(value) if value.is_finite() && value >= 0.0 => {
+                Ok((value > 0.0).then_some(Spectrum::Constant(value)))
+            }
+            AbsorptionSource::PerMetre(value) => {
+                Err(text.error(&source.span(), format!("an absorption coefficient of {value} 1/m: it must be finite and not negative")))
+            }
+        }
+    }
+
+    fn diffuse(&mut self, described: &Described, diffuse: &describe::Diffuse) -> Result<Surface, SceneError> {
+        let (text, source) = (&described.text, &diffuse.reflectance);
+        let spectrum = match source.get_ref() {
+            ReflectanceSource::Name(name) => {
+                let found =
+                    self.library.reflectance(name, text.base()).map_err(|error| text.error(&source.span(), error))?;
+                self.note_data(&described.name, &found.about);
+                found.spectrum.clone()
+            }
+            &ReflectanceSource::Constant(value) if (0.0..=1.0).contains(&value) => Spectrum::Constant(value),
+            ReflectanceSource::Constant(value) => {
+                return Err(text.error(&source.span(), format!("a reflectance of {value}: it lies between 0 and 1")));
+            }
+            &ReflectanceSource::Rgb(rgb) if rgb.iter().all(|c| (0.0..=1.0).contains(c)) => upsample(rgb),
+            ReflectanceSource::Rgb(rgb) => {
+                return Err(text.error(&source.span(), format!("{rgb:?} is no colour of a surface: each of linear r, g, b lies between 0 and 1")));
+            }
+        };
+        Ok(Surface::Diffuse { reflectance: self.spectra.add(spectrum) })
+    }
+}
+
+/// GGX α from either of the two words for it.
+fn roughness(text: &Text, conductor: &describe::Conductor) -> Result<f64, SceneError> {
+    let (number, name) = match (&conductor.roughness, &conductor.perceptual_roughness) {
+        (None, None) => return Ok(0.0),
+        (Some(alpha), None) => (alpha, "roughness"),
+        (None, Some(r)) => (r, "perceptual_roughness"),
+        (Some(_), Some(r)) => {
+            let message = "`roughness` and `perceptual_roughness` both say how rough the surface is";
+            return Err(text.error(&r.span(), message).help("`roughness` is α itself; `perceptual_roughness` r means α = r²"));
+        }
+    };
+    let value = *number.get_ref();
+    if !(0.0..=1.0).contains(&value) {
+        return Err(text.error(&number.span(), format!("`{name}` is {value}: it lies between 0 and 1")));
+    }
+    Ok(if name == "roughness" { value } else { value * value })
+}
+
+/// Whether a spectrum is the same at every wavelength; tables of one value are.
+fn is_constant(spectrum: &Spectrum) -> bool {
+    let first = spectrum.at(LAMBDA_MIN_NM);
+    let step = |i: u32| LAMBDA_MIN_NM + f64::from(i);
+    (1..=(LAMBDA_MAX_NM - LAMBDA_MIN_NM) as u32).all(|i| spectrum.at(step(i)) == first)
+}
+
+/// α = 4πk/λ in m⁻¹ from k, at every nanometre; `None` where k is zero.
+fn absorption_of_k(k: &Spectrum) -> Option<Spectrum> {
+    let points: Vec<(f64, f64)> = (LAMBDA_MIN_NM as u32..=LAMBDA_MAX_NM as u32)
+        .map(|nm| (f64::from(nm), 4.0 * std::f64::consts::PI * k.at(f64::from(nm)) / (f64::from(nm) * 1e-9)))
+        .collect();
+    let absorbs = points.iter().any(|&(_, alpha)| alpha > 0.0);
+    absorbs.then(|| Spectrum::Table(Table::from_points(&points, Outside::Hold)))
+}
