@@ -1,1 +1,7 @@
-fn main() {}
+//! Parse, run, print one error, exit.
+
+#![forbid(unsafe_code)]
+
+fn main() -> std::process::ExitCode {
+    spectrel::cli::main()
+}

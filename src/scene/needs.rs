@@ -56,9 +56,9 @@ fn objects_with(scene: &Scene, holds: impl Fn(&Surface) -> bool) -> Vec<&str> {
 
 fn listed(names: &[&str]) -> String {
     match names {
-        [] => "none".into(),
-        [first @ .., last] if first.is_empty() => (*last).into(),
-        [first, second, third, rest @ ..] if !rest.is_empty() => format!("{first}, {second}, {third} and {} more", rest.len()),
+        [] => "nothing".into(),
+        [one] => (*one).into(),
+        [a, b, c, _, rest @ ..] => format!("{a}, {b}, {c} and {} more", rest.len() + 1),
         [first @ .., last] => format!("{} and {last}", first.join(", ")),
     }
 }

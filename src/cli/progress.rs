@@ -1,0 +1,62 @@
+//! How far a render is: a bar with the time left on a terminal, a line now and then otherwise.
+
+use super::show;
+use crate::render::Progress;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::IsTerminal;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Instant;
+
+pub enum Shown {
+    Nothing,
+    Bar(ProgressBar),
+    Lines { total: u64, done: AtomicU64, started: Instant },
+}
+
+/// A plain line each time so much of the work is done.
+const LINES: u64 = 10;
+
+impl Shown {
+    pub fn new(total: u64, quiet: bool) -> Self {
+        if quiet {
+            return Self::Nothing;
+        }
+        if !std::io::stderr().is_terminal() {
+            return Self::Lines { total, done: AtomicU64::new(0), started: Instant::now() };
+        }
+        let bar = ProgressBar::new(total);
+        let template = "{bar:40} {percent:>3} %  {elapsed} gone, {eta} left  {per_sec}";
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            let rate = |state: &indicatif::ProgressState, out: &mut dyn std::fmt::Write| {
+                let _ = write!(out, "{:.2} M samples/s", state.per_sec() / 1e6);
+            };
+            bar.set_style(style.with_key("per_sec", rate).progress_chars("━╸─"));
+        }
+        Self::Bar(bar)
+    }
+
+    pub fn finish(&self) {
+        if let Self::Bar(bar) = self {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+impl Progress for Shown {
+    fn advance(&self, samples: u64) {
+        match self {
+            Self::Nothing => {}
+            Self::Bar(bar) => bar.inc(samples),
+            Self::Lines { total, done, started } => {
+                let before = done.fetch_add(samples, Ordering::Relaxed);
+                let now = before + samples;
+                if before * LINES / total != now * LINES / total {
+                    let seconds = started.elapsed().as_secs_f64();
+                    let left = seconds * (total - now) as f64 / now as f64;
+                    let rate = now as f64 / seconds / 1e6;
+                    show::note(format_args!("{:>3} %  {left:.0} s left  {rate:.2} M samples/s", now * 100 / total));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,32 @@
+//! What people read: answers on standard output, everything else on standard error.
+
+use std::fmt::Display;
+use std::io::{self, Write};
+
+/// An answer; a reader that has closed the pipe has seen enough.
+pub fn answer(text: impl Display) {
+    let _ = writeln!(io::stdout().lock(), "{text}");
+}
+
+pub fn note(text: impl Display) {
+    let _ = writeln!(io::stderr().lock(), "{text}");
+}
+
+pub fn warning(text: impl Display) {
+    note(format_args!("warning: {text}"));
+}
+
+pub fn error(text: impl Display) {
+    note(format_args!("error: {text}"));
+}
+
+/// Columns as wide as their widest cell, two spaces apart.
+pub fn columns<const N: usize>(rows: &[[String; N]]) -> String {
+    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    let widths: [usize; N] = std::array::from_fn(width);
+    let line = |row: &[String; N]| {
+        let cells = row.iter().zip(widths).map(|(cell, width)| format!("{cell:width$}"));
+        cells.collect::<Vec<_>>().join("  ").trim_end().to_owned()
+    };
+    rows.iter().map(line).collect::<Vec<_>>().join("\n")
+}
