@@ -1,1 +1,4 @@
+//! Reflectance of an interface: numbers in, numbers out.
 
+mod double;
+pub mod exact;
