@@ -2,6 +2,8 @@
 //! formulas break: index matching, near the critical angle, vanishing k, immersed and grazing metals.
 
 use spectrel::fresnel::exact::{Reflection, reflect};
+use spectrel::fresnel::{conductor, dielectric};
+use spectrel::spectrum::Lanes;
 
 const TABLE: &str = include_str!("data/fresnel_hard.csv");
 
@@ -123,4 +125,49 @@ fn phases(case: &Case, computed: &Reflection, verdict: &mut Verdict) {
             verdict.add(error, 1e-10, || format!("{name} {} line {}", case.category, case.line));
         }
     }
+}
+
+/// The kernels at the inputs rounded to f32, against the reference at the same rounded inputs.
+#[test]
+fn conductor_kernel_agrees_with_the_reference() {
+    let mut verdict = Verdict::default();
+    for case in cases() {
+        let (input, expected) = rounded(&case);
+        let [n1, n2, k2, cos] = input.map(|value| Lanes([value]));
+        let (r, one_minus_r) = conductor::reflectance_and_loss(&n1, &n2, &k2, &cos);
+        assert!((0.0..=1.0).contains(&r[0]));
+        kernel_reflects(&case, r[0], expected.r, &mut verdict);
+        if case.is_metal() && expected.one_minus_r > 0.0 {
+            let error = (one_minus_r[0] as f64 / expected.one_minus_r - 1.0).abs();
+            verdict.add(error, 1e-5, || format!("relative 1-R {} line {}", case.category, case.line));
+        }
+    }
+    verdict.finish();
+}
+
+#[test]
+fn dielectric_kernel_agrees_with_the_reference() {
+    let mut verdict = Verdict::default();
+    for case in cases().into_iter().filter(|case| case.input[2] == 0.0) {
+        let (input, expected) = rounded(&case);
+        let [n1, n2, _, cos] = input.map(|value| Lanes([value]));
+        let interface = dielectric::fresnel(&n1, &n2, &cos);
+        assert!((0.0..=1.0).contains(&interface.r[0]));
+        kernel_reflects(&case, interface.r[0], expected.r, &mut verdict);
+        if expected.tir && !case.is_critical() {
+            assert_eq!((interface.r[0], interface.cos_theta_t[0]), (1.0, 0.0), "line {}", case.line);
+        }
+    }
+    verdict.finish();
+}
+
+fn rounded(case: &Case) -> ([f32; 4], Reflection) {
+    let input = case.input.map(|value| value as f32);
+    let [n1, n2, k2, cos] = input.map(f64::from);
+    (input, reflect(n1, n2, k2, cos))
+}
+
+fn kernel_reflects(case: &Case, r: f32, expected: f64, verdict: &mut Verdict) {
+    let tolerance = if case.is_critical() { 2e-3 } else { 2e-6 };
+    verdict.add((r as f64 - expected).abs(), tolerance, || format!("R {} line {}", case.category, case.line));
 }
