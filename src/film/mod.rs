@@ -7,17 +7,24 @@
 //! - [`window`]: which part of the full image a film covers, and its tiles
 //! - [`fixed`]: one number to fixed point
 //! - [`pixel`]: the sums of one pixel
-//! - [`store`]: films as files, for checkpoints and for merging the parts of a job
 //! - [`exposure`]: which luminance becomes display white
 //! - [`develop`]: exposure → white balance → RGB
 //! - [`gamut`]: what a display cannot show, counted and, for PNG, moved inside
 
+pub mod develop;
 pub mod error;
+pub mod exposure;
 pub mod fixed;
+pub mod gamut;
+pub mod interim;
 pub mod pixel;
 pub mod window;
 
+pub use develop::{Develop, Developed};
 pub use error::FilmError;
+pub use exposure::Exposure;
+pub use gamut::{Gamut, GamutReport};
+pub use interim::RgbSpace;
 pub use pixel::Pixel;
 pub use window::Window;
 
