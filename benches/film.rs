@@ -1,0 +1,75 @@
+//! What exact sums cost: `cargo bench --bench film`. Each benchmark adds 1024 samples to one pixel.
+
+use divan::{Bencher, black_box};
+use spectrel::film::Pixel;
+
+fn main() {
+    divan::main();
+}
+
+const SAMPLES: usize = 1024;
+
+/// Radiances of a product shot: six decades around 100 cd/m², a few of them black.
+fn samples() -> Vec<[f32; 3]> {
+    let mut state = 1u32;
+    let mut random = move || {
+        state = state.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+        (state >> 8) as f32 / 16_777_216.0
+    };
+    let mut sample = || if random() < 0.1 { [0.0; 3] } else { [0; 3].map(|_| 10f32.powf(6.0 * random() - 1.0)) };
+    (0..SAMPLES).map(|_| sample()).collect()
+}
+
+#[divan::bench]
+fn exact_by_shifting(bencher: Bencher) {
+    let samples = samples();
+    bencher.counter(SAMPLES).bench_local(|| {
+        let mut pixel = Pixel::default();
+        for xyz in black_box(&samples) {
+            pixel.add(*xyz);
+        }
+        pixel
+    });
+}
+
+/// The obvious way to the same bits: scale in f64 and cast.
+#[divan::bench]
+fn exact_by_casting(bencher: Bencher) {
+    let samples = samples();
+    bencher.counter(SAMPLES).bench_local(|| {
+        let mut pixel = ([0i128; 3], [0u128; 3], 0u32);
+        for xyz in black_box(&samples) {
+            if !xyz.iter().all(|c| c.is_finite()) {
+                continue;
+            }
+            for channel in 0..3 {
+                let x = f64::from(xyz[channel]);
+                pixel.0[channel] = pixel.0[channel].wrapping_add((x * 18_446_744_073_709_551_616.0) as i128);
+                pixel.1[channel] = pixel.1[channel].saturating_add((x * x * 281_474_976_710_656.0) as u128);
+            }
+            pixel.2 += 1;
+        }
+        pixel
+    });
+}
+
+/// Not exact: what the usual film does.
+#[divan::bench]
+fn sums_in_f64(bencher: Bencher) {
+    let samples = samples();
+    bencher.counter(SAMPLES).bench_local(|| {
+        let mut pixel = ([0f64; 3], [0f64; 3], 0u32);
+        for xyz in black_box(&samples) {
+            if !xyz.iter().all(|c| c.is_finite()) {
+                continue;
+            }
+            for channel in 0..3 {
+                let x = f64::from(xyz[channel]);
+                pixel.0[channel] += x;
+                pixel.1[channel] += x * x;
+            }
+            pixel.2 += 1;
+        }
+        pixel
+    });
+}

@@ -1,0 +1,113 @@
+//! Development: exact sums become a picture. XYZ (cd/m²) × 2^−EV → Bradford to the display's white → linear RGB.
+//!
+//! Nothing is clipped here: RGB may be above 1 or negative, and the report counts where. Files that cannot hold such
+//! colours map them when they are written ([`Developed::display`]).
+
+use super::interim::{RgbSpace, apply, bradford, multiply};
+use super::{Exposure, Film, FilmError, Gamut, GamutReport, Window};
+
+/// How to develop a film.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Develop {
+    pub exposure: Exposure,
+    /// XYZ of the colour that becomes display white; only its chromaticity counts (Y is taken as 1).
+    pub white: [f64; 3],
+    pub space: RgbSpace,
+    pub gamut: Gamut,
+}
+
+impl Default for Develop {
+    /// Automatic exposure, no white balance, sRGB, hue kept.
+    fn default() -> Self {
+        let space = RgbSpace::SRGB;
+        Self { exposure: Exposure::Auto, white: space.white_xyz(), space, gamut: Gamut::PreserveChroma }
+    }
+}
+
+/// A developed film.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Developed {
+    /// [width, height] of the full image.
+    pub image: [u32; 2],
+    /// The part of it the pixels cover, row by row from the top.
+    pub window: Window,
+    /// Mean XYZ in cd/m², as on the film: neither exposed nor balanced.
+    pub xyz: Vec<[f32; 3]>,
+    /// Linear RGB relative to display white, not clipped.
+    pub rgb: Vec<[f32; 3]>,
+    /// RGB (1, 1, 1) is 2^EV cd/m².
+    pub ev: f64,
+    /// XYZ of the colour that became display white, Y = 1.
+    pub white: [f64; 3],
+    pub space: RgbSpace,
+    pub gamut: Gamut,
+    pub report: GamutReport,
+}
+
+impl Developed {
+    pub fn width(&self) -> u32 {
+        self.window.width
+    }
+
+    pub fn height(&self) -> u32 {
+        self.window.height
+    }
+
+    /// Linear RGB mapped into [0, 1] for files that hold no more.
+    pub fn display(&self) -> impl Iterator<Item = [f64; 3]> {
+        let luminance = self.space.to_xyz()[1];
+        self.rgb.iter().map(move |rgb| self.gamut.map(rgb.map(f64::from), luminance))
+    }
+}
+
+impl Develop {
+    /// The matrix from XYZ in cd/m² to linear RGB at exposure `ev`.
+    pub fn matrix(&self, ev: f64) -> Result<[[f64; 3]; 3], FilmError> {
+        let adapt = bradford(self.normalised_white()?, self.space.white_xyz());
+        let scale = libm::exp2(-ev);
+        Ok(multiply(self.space.from_xyz(), adapt).map(|row| row.map(|c| c * scale)))
+    }
+
+    fn normalised_white(&self) -> Result<[f64; 3], FilmError> {
+        let white = self.white;
+        let valid = white.iter().all(|c| c.is_finite() && *c >= 0.0) && white[1] > 0.0;
+        if valid { Ok(white.map(|c| c / white[1])) } else { Err(FilmError::White { white }) }
+    }
+}
+
+impl Film {
+    /// Develops the film.
+    pub fn develop(&self, develop: &Develop) -> Result<Developed, FilmError> {
+        let ev = develop.exposure.ev(self.pixels().iter().map(|p| p.mean()[1]))?;
+        let matrix = develop.matrix(ev)?;
+        let means = || self.pixels().iter().map(|p| p.mean());
+        let rgb: Vec<_> = means().map(|xyz| to_f32(apply(matrix, xyz))).collect();
+        Ok(Developed {
+            image: self.image(),
+            window: self.window(),
+            xyz: means().map(to_f32).collect(),
+            ev,
+            white: develop.normalised_white()?,
+            space: develop.space,
+            gamut: develop.gamut,
+            report: self.gamut_report(&rgb, develop),
+            rgb,
+        })
+    }
+
+    fn gamut_report(&self, rgb: &[[f32; 3]], develop: &Develop) -> GamutReport {
+        let mut report =
+            GamutReport { gamut: develop.gamut, space: develop.space.name.to_string(), ..GamutReport::default() };
+        for (pixel, rgb) in self.pixels().iter().zip(rgb) {
+            report.count(*rgb);
+            report.rejected += u64::from(pixel.rejected());
+            report.overflow += u64::from(pixel.overflowed());
+            report.unsampled += u64::from(pixel.count() == 0);
+        }
+        report
+    }
+}
+
+fn to_f32(xyz: [f64; 3]) -> [f32; 3] {
+    xyz.map(|c| c as f32)
+}

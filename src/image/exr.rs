@@ -1,0 +1,128 @@
+//! OpenEXR: every colour as it is.
+//!
+//! Three channels R, G, B of one part, scan lines, ZIP. They hold
+//!
+//! - linear RGB of the development: `chromaticities` are those of its space, `whiteLuminance` = 2^EV, the luminance of
+//!   RGB (1, 1, 1) in cd/m²; or
+//! - XYZ in cd/m²: `chromaticities` (1, 0), (0, 1), (0, 0) with white (1/3, 1/3), `whiteLuminance` = 1. That is how
+//!   the reference image Chromaticities/XYZ.exr of the OpenEXR project says it, and a reader that honours the attribute
+//!   shows it right; channels named X, Y, Z would be shown as a grey picture, because Y alone means luminance.
+//!
+//! Both attributes together give back absolute XYZ from either file. `adoptedNeutral` is the xy that should look
+//! neutral. `displayWindow` is the full image, `dataWindow` the crop. No dates.
+
+use std::io::Cursor;
+
+use exr::math::Vec2;
+use exr::meta::attribute::{AttributeValue, Chromaticities, IntegerBounds, Text};
+use exr::prelude::{
+    Blocks, Compression, Encoding, Image, ImageAttributes, IntoSample, Layer, LayerAttributes, LineOrder,
+    SpecificChannels, WritableImage, f16,
+};
+
+use super::exr_header::sort_attributes;
+use super::{Encoded, ExrSpace, ImageError, Metadata, Options};
+use crate::film::{Developed, RgbSpace};
+
+/// Lossless ZIP of 16 lines; lines in order, whatever thread compressed them first.
+const ENCODING: Encoding =
+    Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
+
+/// The EXR file of a picture.
+pub fn encode(developed: &Developed, options: &Options, metadata: &Metadata) -> Result<Encoded, ImageError> {
+    let pixels = match options.exr_space {
+        ExrSpace::Rgb => &developed.rgb,
+        ExrSpace::Xyz => &developed.xyz,
+    };
+    let attributes = Attributes::new(developed, options.exr_space, metadata)?;
+    let (bytes, beyond_half) = if options.half {
+        let beyond = pixels.iter().flatten().filter(|c| c.abs() > HALF_MAX).count();
+        (attributes.write(pixels, to_half)?, beyond as u64)
+    } else {
+        (attributes.write(pixels, |c| c)?, 0)
+    };
+    Ok(Encoded { bytes, beyond_half })
+}
+
+const HALF_MAX: f32 = 65504.0;
+
+/// Saturates: infinity would spread through every filter a reader applies.
+fn to_half(channel: f32) -> f16 {
+    f16::from_f32(channel.clamp(-HALF_MAX, HALF_MAX))
+}
+
+/// All of the file but its pixels.
+struct Attributes {
+    size: Vec2<usize>,
+    image: ImageAttributes,
+    layer: LayerAttributes,
+}
+
+impl Attributes {
+    fn new(developed: &Developed, space: ExrSpace, metadata: &Metadata) -> Result<Self, ImageError> {
+        let (window, [width, height]) = (developed.window, developed.image);
+        let int = |n: u32| i32::try_from(n).map_err(|_| failed("the image has more than 2³¹ pixels on a side"));
+        let (xy, luminance) = match space {
+            ExrSpace::Rgb => (rgb_chromaticities(&developed.space), libm::exp2(developed.ev) as f32),
+            ExrSpace::Xyz => (xyz_chromaticities(), 1.0),
+        };
+        // RGB is balanced already; XYZ is neutral where the development would have made it so.
+        let neutral = match space {
+            ExrSpace::Rgb => xy.white,
+            ExrSpace::Xyz => chromaticity(developed.white),
+        };
+        (int(width)?, int(height)?);
+        let mut image = ImageAttributes::new(IntegerBounds::from_dimensions((width as usize, height as usize)));
+        image.chromaticities = Some(xy);
+        let layer = LayerAttributes {
+            layer_position: Vec2(int(window.x0)?, int(window.y0)?),
+            white_luminance: Some(luminance),
+            adopted_neutral: Some(neutral),
+            other: metadata.named().map(|(key, value)| (text(&key), AttributeValue::Text(text(value)))).collect(),
+            ..LayerAttributes::default()
+        };
+        Ok(Self { size: Vec2(window.width as usize, window.height as usize), image, layer })
+    }
+
+    fn write<S: IntoSample>(
+        self,
+        pixels: &[[f32; 3]],
+        sample: impl Fn(f32) -> S + Sync,
+    ) -> Result<Vec<u8>, ImageError> {
+        let width = self.size.0;
+        let channels = SpecificChannels::rgb(|at: Vec2<usize>| {
+            let [r, g, b] = pixels.get(at.1 * width + at.0).copied().unwrap_or_default();
+            (sample(r), sample(g), sample(b))
+        });
+        let image = Image::new(self.image, Layer::new(self.size, self.layer, ENCODING, channels));
+        let mut bytes = Cursor::new(Vec::new());
+        image.write().to_buffered(&mut bytes).map_err(|e| failed(&e.to_string()))?;
+        let mut bytes = bytes.into_inner();
+        sort_attributes(&mut bytes).ok_or_else(|| failed("the header is malformed"))?;
+        Ok(bytes)
+    }
+}
+
+fn failed(reason: &str) -> ImageError {
+    ImageError::Encode { format: "EXR", reason: reason.to_string() }
+}
+
+/// UTF-8, as OpenEXR recommends for its strings.
+fn text(value: &str) -> Text {
+    Text::from_slice_unchecked(value.as_bytes())
+}
+
+fn rgb_chromaticities(space: &RgbSpace) -> Chromaticities {
+    let xy = |[x, y]: [f64; 2]| Vec2(x as f32, y as f32);
+    Chromaticities { red: xy(space.red), green: xy(space.green), blue: xy(space.blue), white: xy(space.white) }
+}
+
+fn xyz_chromaticities() -> Chromaticities {
+    let third = 1.0 / 3.0;
+    Chromaticities { red: Vec2(1.0, 0.0), green: Vec2(0.0, 1.0), blue: Vec2(0.0, 0.0), white: Vec2(third, third) }
+}
+
+fn chromaticity([x, y, z]: [f64; 3]) -> Vec2<f32> {
+    let sum = x + y + z;
+    Vec2((x / sum) as f32, (y / sum) as f32)
+}

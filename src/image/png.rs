@@ -1,0 +1,74 @@
+//! PNG: what a display can show, 8 or 16 bits a channel, sRGB.
+//!
+//! Colours outside are mapped as the development says ([`Developed::display`]); the values are rounded to the nearest
+//! code. No dither: path-traced pixels carry noise of about a code or more, which does the same service, and plain
+//! rounding lets a test (or a colour checker) read back the value it expects. Where that is not enough, 16 bits are.
+//!
+//! Metadata are tEXt chunks, iTXt where they are not ASCII. The file says sRGB, and gAMA and cHRM for old readers.
+
+use png::{BitDepth, ColorType, Encoder, ScaledFloat, SourceChromaticities, SrgbRenderingIntent};
+
+use super::{Bits, Encoded, ImageError, Metadata};
+use crate::film::Developed;
+use crate::film::interim::srgb_encode;
+
+/// The PNG file of a picture.
+pub fn encode(developed: &Developed, bits: Bits, metadata: &Metadata) -> Result<Encoded, ImageError> {
+    let mut bytes = Vec::new();
+    write(&mut bytes, developed, bits, metadata)
+        .map_err(|e| ImageError::Encode { format: "PNG", reason: e.to_string() })?;
+    Ok(Encoded { bytes, beyond_half: 0 })
+}
+
+fn write(
+    bytes: &mut Vec<u8>,
+    developed: &Developed,
+    bits: Bits,
+    metadata: &Metadata,
+) -> Result<(), png::EncodingError> {
+    let mut encoder = Encoder::new(bytes, developed.width(), developed.height());
+    encoder.set_color(ColorType::Rgb);
+    set_srgb(&mut encoder);
+    for (key, value) in metadata.named() {
+        add_text(&mut encoder, key, value)?;
+    }
+    let samples = match bits {
+        Bits::Eight => {
+            encoder.set_depth(BitDepth::Eight);
+            codes(developed, 255.0).map(|code| code as u8).collect()
+        }
+        Bits::Sixteen => {
+            encoder.set_depth(BitDepth::Sixteen);
+            codes(developed, 65535.0).flat_map(|code| (code as u16).to_be_bytes()).collect::<Vec<u8>>()
+        }
+    };
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&samples)?;
+    writer.finish()
+}
+
+/// Encoded channels in order, as whole numbers up to `max`.
+fn codes(developed: &Developed, max: f64) -> impl Iterator<Item = f64> {
+    developed.display().flatten().map(move |linear| libm::round(srgb_encode(linear) * max))
+}
+
+/// The chunk sRGB, and beside it the gAMA and cHRM that the PNG specification (11.3.2.5) recommends with it.
+fn set_srgb<W: std::io::Write>(encoder: &mut Encoder<W>) {
+    encoder.set_source_srgb(SrgbRenderingIntent::RelativeColorimetric);
+    encoder.set_source_gamma(ScaledFloat::from_scaled(45455));
+    let xy = |x, y| (ScaledFloat::from_scaled(x), ScaledFloat::from_scaled(y));
+    encoder.set_source_chromaticities(SourceChromaticities {
+        white: xy(31270, 32900),
+        red: xy(64000, 33000),
+        green: xy(30000, 60000),
+        blue: xy(15000, 6000),
+    });
+}
+
+fn add_text<W: std::io::Write>(encoder: &mut Encoder<W>, key: String, value: &str) -> Result<(), png::EncodingError> {
+    if value.is_ascii() {
+        encoder.add_text_chunk(key, value.to_string())
+    } else {
+        encoder.add_itxt_chunk(key, value.to_string())
+    }
+}
