@@ -3,8 +3,10 @@
 //! A render cannot fail. It is cut into passes of [`PASS`] samples over all rows, so that what there is at any time is a
 //! whole picture; the film's sums are exact, so neither the cut nor the threads change a bit of it.
 
+mod interface;
 mod media;
 mod path;
+mod scatter;
 mod stone;
 
 use crate::film::{Film, Pixel};

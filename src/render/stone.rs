@@ -7,19 +7,18 @@
 
 use super::path::Path;
 use super::Kernel;
-use crate::bsdf::{self, Directions};
-use crate::fresnel::{self, FresnelModel};
+use crate::bsdf::dielectric::{reflect_lanes, refract_lanes};
+use crate::bsdf::{Directions, choose};
 use crate::geometry::{Convex, Hit, Points, Shape};
 use crate::sampler::Sampler;
-use crate::scene::MediumId;
+use crate::scene::{Interface, MediumId};
 use crate::spectrum::Lanes;
 
 /// Where lanes enter a stone, already refracted.
 pub struct Entry<'a, const N: usize> {
     pub hit: &'a Hit,
     pub directions: Directions<N>,
-    pub medium: MediumId,
-    pub model: FresnelModel,
+    pub interface: &'a Interface,
 }
 
 /// Where lanes leave a stone, and whereto.
@@ -36,26 +35,28 @@ impl Kernel<'_> {
         path: &mut Path<N>,
         sampler: &mut Sampler,
     ) -> Option<Exits<N>> {
-        let Shape::Convex(solid) = self.scene.world.shape(entry.hit.shape) else { return None };
-        let inside = self.n(entry.medium, path.offset);
-        let outside = self.n(path.media.without(entry.medium), path.offset);
+        let Shape::Convex(solid) = self.scene.world.shape(entry.hit.shape)? else { return None };
+        let Interface { medium, model, .. } = *entry.interface;
+        let inside = self.n(medium, path.offset);
+        let outside = self.n(path.media.without(medium), path.offset);
         let mut origins = Points::splat(entry.hit.point);
         let mut directions = entry.directions;
         while path.depth < self.max_depth {
-            let exits = solid.exit_lanes(&origins, &directions);
-            origins = origins.advanced(&directions, &exits.t);
-            self.absorb_each(path, entry.medium, &exits.t);
-            let normals = facet_normals(solid, &exits.facet);
-            let cos_theta_i = normals.dot(&directions);
-            let boundary = fresnel::dielectric::fresnel(entry.model, &inside, &outside, &cos_theta_i);
-            let choice = bsdf::choose(path.throughput, boundary.r, sampler.next());
+            let exits = solid.exit_lanes(&origins, &points(&directions));
+            advance(&mut origins, &directions, &exits.t);
+            self.absorb_each(path, medium, &exits.t);
+            let normals = Directions::from_fn(|lane| -solid.normal(exits.facet[lane]));
+            let cos_theta_i = directions.dot(&normals).map(|cos| (-cos).clamp(0.0, 1.0));
+            let boundary = model.dielectric(&inside, &outside, &cos_theta_i);
+            let choice = choose(&path.throughput, &boundary.r, sampler.next());
             path.throughput *= choice.weight;
             path.depth += 1;
             if !choice.reflect {
-                let directions = directions.refracted(&normals, &inside, &outside, &cos_theta_i, &boundary.cos_theta_t);
+                let eta = inside / outside;
+                let directions = refract_lanes(&directions, &normals, &eta, &cos_theta_i, &boundary.cos_theta_t);
                 return Some(Exits { origins, directions });
             }
-            directions = directions.reflected(&normals, &cos_theta_i);
+            directions = reflect_lanes(&directions, &normals, &cos_theta_i);
             if !path.survives(sampler) {
                 return None;
             }
@@ -73,6 +74,16 @@ impl Kernel<'_> {
 }
 
 #[inline]
-fn facet_normals<const N: usize>(solid: &Convex, facets: &[u32; N]) -> Directions<N> {
-    Directions::from_fn(|lane| solid.normal(facets[lane]))
+fn advance<const N: usize>(origins: &mut Points<N>, directions: &Directions<N>, t: &[f32; N]) {
+    for lane in 0..N {
+        origins.x[lane] += directions.x[lane] * t[lane];
+        origins.y[lane] += directions.y[lane] * t[lane];
+        origins.z[lane] += directions.z[lane] * t[lane];
+    }
+}
+
+/// The room of shapes knows no directions, only triples of lanes.
+#[inline]
+fn points<const N: usize>(directions: &Directions<N>) -> Points<N> {
+    Points { x: directions.x, y: directions.y, z: directions.z }
 }

@@ -52,8 +52,16 @@ pub enum Surface {
     Black,
     Diffuse { reflectance: SpectrumId },
     Conductor { n: SpectrumId, k: SpectrumId, alpha: f32, model: FresnelModel },
-    /// The smooth boundary of a closed solid.
-    Dielectric { medium: MediumId, model: FresnelModel, inside: Inside },
+    Dielectric(Interface),
+}
+
+/// The smooth boundary of a closed solid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interface {
+    /// What fills the solid.
+    pub medium: MediumId,
+    pub model: FresnelModel,
+    pub inside: Inside,
 }
 
 /// How the inside of a dielectric solid is traced.

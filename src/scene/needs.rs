@@ -1,6 +1,6 @@
 //! Which physics a scene uses, and why: what it does not need is neither loaded nor run.
 
-use super::{Inside, MediumId, Scene, Surface};
+use super::{Inside, Interface, MediumId, Scene, Surface};
 use crate::light::Environment;
 use crate::spectrum::Density;
 use serde::Serialize;
@@ -86,7 +86,7 @@ fn wavelengths(lines: &[f64]) -> Decision {
 
 fn dispersion(scene: &Scene) -> Decision {
     let disperses = |surface: &Surface| match surface {
-        Surface::Dielectric { medium, .. } => {
+        Surface::Dielectric(Interface { medium, .. }) => {
             scene.medium(*medium).dispersive || scene.medium(MediumId::OUTSIDE).dispersive
         }
         _ => false,
@@ -98,7 +98,7 @@ fn dispersion(scene: &Scene) -> Decision {
 }
 
 fn stones(scene: &Scene) -> Decision {
-    let alone = |surface: &Surface| matches!(surface, Surface::Dielectric { inside: Inside::Alone, .. });
+    let alone = |surface: &Surface| matches!(surface, Surface::Dielectric(Interface { inside: Inside::Alone, .. }));
     match objects_with(scene, alone) {
         names if names.is_empty() => decision("stone kernel", false, "no convex dielectric solid with nothing in it"),
         names => {
@@ -138,7 +138,7 @@ fn light_sampling(scene: &Scene) -> Decision {
     let lit = |surface: &Surface| match surface {
         Surface::Diffuse { .. } => true,
         Surface::Conductor { alpha, .. } => *alpha > 0.0,
-        Surface::Black | Surface::Dielectric { .. } => false,
+        Surface::Black | Surface::Dielectric(_) => false,
     };
     match (shining, objects_with(scene, lit).is_empty()) {
         (0, _) => decision("light sampling", false, "no shape shines"),

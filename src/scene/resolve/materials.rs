@@ -3,7 +3,7 @@
 use super::Resolver;
 use crate::fresnel::FresnelModel;
 use crate::scene::describe::{self, AbsorptionSource, IndexSource, ReflectanceSource};
-use crate::scene::{Inside, Medium, MediumId, SceneError, Surface, Text};
+use crate::scene::{Inside, Interface, Medium, MediumId, SceneError, Surface, Text};
 use crate::spectrum::{About, Ior, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Outside, Spectrum, SpectrumError, Table, nearest, upsample};
 use std::ops::Range;
 use std::sync::Arc;
@@ -72,7 +72,8 @@ impl Resolver<'_> {
                 let medium = self.medium(described, dielectric)?;
                 self.media.push(medium);
                 let medium = MediumId(self.media.len() as u16 - 1);
-                Ok(Surface::Dielectric { medium, model: self.model(dielectric.get_ref().fresnel), inside: Inside::General })
+                let model = self.model(dielectric.get_ref().fresnel);
+                Ok(Surface::Dielectric(Interface { medium, model, inside: Inside::General }))
             }
             (None, None, Some(diffuse)) => self.diffuse(described, diffuse.get_ref()),
             (None, None, None) => {

@@ -5,7 +5,7 @@ mod materials;
 mod shapes;
 
 use super::describe::{self, ExposureValue, SceneFile};
-use super::{DataSet, Inside, Medium, MediumId, Object, Picture, Scene, SceneError, Settings, Surface, Text};
+use super::{DataSet, Inside, Interface, Medium, MediumId, Object, Picture, Scene, SceneError, Settings, Surface, Text};
 use crate::camera::{Camera, Filter, Lens};
 use crate::fresnel::FresnelModel;
 use crate::geometry::{Shape, ShapeId, World};
@@ -184,7 +184,7 @@ impl Resolver<'_> {
                     return Err(self.text.error(&span, message).help("add `material = \"…\"`: `spectrel list materials` shows them"));
                 }
             };
-            if let Surface::Dielectric { .. } = self.surfaces[surface as usize] {
+            if let Surface::Dielectric(_) = self.surfaces[surface as usize] {
                 self.check_dielectric(object, &shape, &name)?;
             }
             if let Some(emission) = &object.emission {
@@ -288,7 +288,7 @@ impl Resolver<'_> {
             shapes.iter().enumerate().any(|(other, shape)| other != solid && shapes[solid].may_touch_inside(shape))
         };
         for (index, surface) in self.surfaces.iter_mut().enumerate() {
-            let Surface::Dielectric { inside, .. } = surface else { continue };
+            let Surface::Dielectric(Interface { inside, .. }) = surface else { continue };
             let mut users = (0..shapes.len()).filter(|&shape| objects[shape].surface as usize == index);
             let alone = users.all(|shape| matches!(shapes[shape], Shape::Convex(_)) && !reached(shape));
             *inside = if alone { Inside::Alone } else { Inside::General };

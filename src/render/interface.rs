@@ -1,0 +1,103 @@
+//! A path at a smooth dielectric boundary: reflected or refracted, and parted where the index disperses.
+
+use super::Kernel;
+use super::path::{Outcome, Path};
+use super::stone::Entry;
+use crate::bsdf::dielectric::{reflect, refract, refract_lanes};
+use crate::bsdf::{Directions, choose};
+use crate::geometry::{Departure, Hit, Ray, Side};
+use crate::sampler::Sampler;
+use crate::scene::{Inside, Interface};
+use crate::spectrum::Lanes;
+
+impl Kernel<'_> {
+    /// A smooth dielectric boundary: one of reflection and refraction is followed, all lanes alike.
+    #[inline]
+    pub fn interface<const N: usize>(
+        &self,
+        interface: &Interface,
+        path: &mut Path<N>,
+        hit: &Hit,
+        sampler: &mut Sampler,
+        radiance: &mut Lanes<N>,
+    ) -> Outcome {
+        let &Interface { medium, model, inside } = interface;
+        let entering = hit.side == Side::Outside;
+        let (from, to) = match entering {
+            true => (path.media.current(), medium),
+            false => (medium, path.media.without(medium)),
+        };
+        let (n1, n2) = (self.n(from, path.offset), self.n(to, path.offset));
+        let normal = if entering { hit.normal } else { -hit.normal };
+        let cos_theta_i = (-path.ray.direction.dot(normal)).clamp(0.0, 1.0);
+        let boundary = model.dielectric(&n1, &n2, &Lanes::splat(cos_theta_i));
+        let choice = choose(&path.throughput, &boundary.r, sampler.next());
+        path.throughput *= choice.weight;
+        path.pdf = f32::INFINITY;
+        if choice.reflect {
+            path.ray = Ray::leaving(hit, hit.side, reflect(path.ray.direction, normal, cos_theta_i));
+            return Outcome::GoesOn;
+        }
+        match entering {
+            true => path.media.enter(medium),
+            false => path.media.leave(medium),
+        }
+        let parts = N > 1 && (self.scene.medium(from).dispersive || self.scene.medium(to).dispersive);
+        if !parts && !(N == 1 && inside == Inside::Alone && entering) {
+            let direction = refract(path.ray.direction, normal, n1[0] / n2[0], cos_theta_i, boundary.cos_theta_t[0]);
+            path.ray = Ray::leaving(hit, hit.side.opposite(), direction);
+            return Outcome::GoesOn;
+        }
+        let directions = refract_lanes(
+            &Directions::splat(path.ray.direction),
+            &Directions::splat(normal),
+            &(n1 / n2),
+            &Lanes::splat(cos_theta_i),
+            &boundary.cos_theta_t,
+        );
+        if entering && inside == Inside::Alone {
+            return self.through_stone(&Entry { hit, directions, interface }, path, sampler, radiance);
+        }
+        for lane in 0..N {
+            let ray = Ray::leaving(hit, hit.side.opposite(), directions.get(lane));
+            self.go_on_alone(path, lane, ray, *sampler, radiance);
+        }
+        Outcome::Ended
+    }
+
+    /// Follows one lane to the end of its path; a lane that carries nothing costs nothing.
+    pub fn go_on_alone<const N: usize>(
+        &self,
+        path: &Path<N>,
+        lane: usize,
+        ray: Ray,
+        mut sampler: Sampler,
+        radiance: &mut Lanes<N>,
+    ) {
+        let mut alone = path.lane(lane, ray);
+        if alone.throughput[0] > 0.0 && alone.survives(&mut sampler) {
+            radiance[lane] += self.radiance(alone, &mut sampler)[0];
+        }
+    }
+
+    fn through_stone<const N: usize>(
+        &self,
+        entry: &Entry<N>,
+        path: &mut Path<N>,
+        sampler: &mut Sampler,
+        radiance: &mut Lanes<N>,
+    ) -> Outcome {
+        let Some(exits) = self.trace_stone(entry, path, sampler) else { return Outcome::Ended };
+        path.media.leave(entry.interface.medium);
+        let departs = Departure::Surface { shape: entry.hit.shape, side: Side::Outside };
+        let ray = |lane| Ray { origin: exits.origins.get(lane), direction: exits.directions.get(lane), departs };
+        if N == 1 {
+            path.ray = ray(0);
+            return Outcome::GoesOn;
+        }
+        for lane in 0..N {
+            self.go_on_alone(path, lane, ray(lane), *sampler, radiance);
+        }
+        Outcome::Ended
+    }
+}

@@ -1,0 +1,72 @@
+//! A path at an opaque surface: light sampled directly, then a new direction.
+
+use super::Kernel;
+use super::path::{Outcome, Path};
+use crate::bsdf::{Bsdf, Frame};
+use crate::geometry::{Hit, Ray, Side};
+use crate::sampler::Sampler;
+use crate::spectrum::Lanes;
+use glam::Vec3;
+
+/// Power heuristic's weight of a sample with density `taken` that `other` could have found too.
+#[inline]
+pub fn power_heuristic(taken: f32, other: f32) -> f32 {
+    let ratio = other / taken;
+    1.0 / (1.0 + ratio * ratio)
+}
+
+impl Kernel<'_> {
+    /// An opaque surface: light sampled directly, then a new direction.
+    #[inline]
+    pub fn scatter<const N: usize>(
+        &self,
+        bsdf: &Bsdf<N>,
+        path: &mut Path<N>,
+        hit: &Hit,
+        sampler: &mut Sampler,
+        radiance: &mut Lanes<N>,
+    ) -> Outcome {
+        let normal = if hit.side == Side::Outside { hit.normal } else { -hit.normal };
+        let frame = Frame::new(normal);
+        let wo = frame.to_local(-path.ray.direction);
+        if self.needs.light_sampling && !bsdf.is_delta() {
+            *radiance += path.throughput * self.direct(bsdf, &frame, wo, path, hit, sampler);
+        }
+        let Some(sample) = bsdf.sample(wo, sampler.next_2d()) else { return Outcome::Ended };
+        path.throughput *= sample.weight;
+        path.pdf = if sample.delta { f32::INFINITY } else { sample.pdf };
+        path.ray = Ray::leaving(hit, hit.side, frame.to_world(sample.wi));
+        Outcome::GoesOn
+    }
+
+    /// Light from one point of one light, reflected towards `wo`.
+    #[inline]
+    fn direct<const N: usize>(
+        &self,
+        bsdf: &Bsdf<N>,
+        frame: &Frame,
+        wo: Vec3,
+        path: &Path<N>,
+        hit: &Hit,
+        sampler: &mut Sampler,
+    ) -> Lanes<N> {
+        let (choice, u) = (sampler.next(), sampler.next_2d());
+        let world = &self.scene.world;
+        let Some(light) = self.scene.lights.sample(world, hit.point, choice, u) else { return Lanes::ZERO };
+        let wi = frame.to_local(light.direction);
+        if wi.z <= 0.0 {
+            return Lanes::ZERO;
+        }
+        let value = bsdf.eval(wo, wi);
+        if value.pdf == 0.0 {
+            return Lanes::ZERO;
+        }
+        let shadow = Ray::leaving(hit, hit.side, light.direction);
+        if world.occluded(&shadow, light.distance, Some(light.shape)) {
+            return Lanes::ZERO;
+        }
+        let arriving = self.tables.get::<N>(light.radiance, path.offset)
+            * self.transmittance(path.media.current(), light.distance, path.offset);
+        value.f_cos * arriving * self.compression(path) * (power_heuristic(light.pdf, value.pdf) / light.pdf)
+    }
+}
