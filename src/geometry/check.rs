@@ -1,0 +1,66 @@
+//! The range of numbers in which shapes work.
+
+use glam::{Affine3A, DMat3, DVec3, Vec3};
+
+use super::GeometryError;
+
+/// Sizes and coordinates are kept far enough from the ends of single precision (1e±38) that squares and products of two
+/// squares of them still are numbers.
+const SMALLEST: f64 = 1e-15;
+const LARGEST: f64 = 1e15;
+
+/// A coordinate: finite and not too large.
+pub(super) fn point(what: &'static str, p: Vec3) -> Result<(), GeometryError> {
+    if !p.is_finite() {
+        return Err(GeometryError::NotFinite { what });
+    }
+    let largest = p.abs().max_element() as f64;
+    if largest > LARGEST { Err(GeometryError::OutOfRange { what, value: largest }) } else { Ok(()) }
+}
+
+/// A length: finite, above zero, neither too large nor too small.
+pub(super) fn length(what: &'static str, value: f64) -> Result<(), GeometryError> {
+    if !value.is_finite() {
+        return Err(GeometryError::NotFinite { what });
+    }
+    if value <= 0.0 {
+        return Err(GeometryError::NotPositive { what, value });
+    }
+    if (SMALLEST..=LARGEST).contains(&value) { Ok(()) } else { Err(GeometryError::OutOfRange { what, value }) }
+}
+
+/// A transform in double precision. (Its own products are not used: they are vector code that may round differently
+/// between processors.)
+pub(super) struct Transform {
+    pub matrix: DMat3,
+    pub translation: DVec3,
+}
+
+impl Transform {
+    pub fn new(affine: &Affine3A) -> Result<Self, GeometryError> {
+        let columns = [affine.matrix3.x_axis, affine.matrix3.y_axis, affine.matrix3.z_axis, affine.translation];
+        if columns.iter().any(|c| !c.is_finite()) {
+            return Err(GeometryError::NotFinite { what: "the transform" });
+        }
+        let [x, y, z, t] = columns.map(|c| Vec3::from(c).as_dvec3());
+        Ok(Self { matrix: DMat3::from_cols(x, y, z), translation: t })
+    }
+
+    pub fn point(&self, p: DVec3) -> DVec3 {
+        self.vector(p) + self.translation
+    }
+
+    pub fn vector(&self, v: DVec3) -> DVec3 {
+        self.matrix.x_axis * v.x + self.matrix.y_axis * v.y + self.matrix.z_axis * v.z
+    }
+
+    pub fn determinant(&self) -> f64 {
+        self.matrix.x_axis.dot(self.matrix.y_axis.cross(self.matrix.z_axis))
+    }
+
+    /// Cofactor matrix times `n`: normals transform so, up to the determinant.
+    pub fn cofactor(&self, n: DVec3) -> DVec3 {
+        let (x, y, z) = (self.matrix.x_axis, self.matrix.y_axis, self.matrix.z_axis);
+        y.cross(z) * n.x + z.cross(x) * n.y + x.cross(y) * n.z
+    }
+}

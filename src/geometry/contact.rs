@@ -1,0 +1,137 @@
+//! Whether one shape reaches into another, or only touches it.
+//!
+//! All shapes here are convex, and two convex sets do not share inner points just when some direction separates them. Likely
+//! directions are tried first: facet normals, the line of centres. Then a few steps of Gilbert's algorithm (E. G. Gilbert, SIAM J.
+//! Control 4, 1966) look for more. If none is found the answer is "may".
+
+use glam::DVec3;
+
+use super::{Shape, World};
+
+/// Steps of Gilbert's algorithm; each one costs two support points.
+const STEPS: usize = 64;
+
+impl Shape {
+    /// Whether the surface of `other` may lie inside this solid. False only if it surely does not: the two are apart, touch
+    /// from outside (a stone on a table, facets in common), or this solid lies wholly within `other`. False for flat
+    /// shapes, which have no inside.
+    ///
+    /// If it is false for all other shapes of a world, light inside this solid can be traced with the solid alone.
+    pub fn may_touch_inside(&self, other: &Shape) -> bool {
+        self.is_solid() && !self.apart(other) && !self.within(other)
+    }
+
+    /// Whether some direction separates the two, up to single precision.
+    fn apart(&self, other: &Shape) -> bool {
+        // Shapes are stored in single precision, and so exact to that; contact is meant to be contact.
+        let size = |s: &Shape| {
+            let b = s.bounds();
+            b.min.abs().max(b.max.abs()).max_element() as f64
+        };
+        let tolerance = 4.0 * f32::EPSILON as f64 * (size(self) + size(other));
+        let separates = |axis: DVec3| {
+            let length = axis.length();
+            length > 0.0 && self.reach(axis) + other.reach(-axis) <= tolerance * length
+        };
+        let center = |s: &Shape| s.bounds().center().as_dvec3();
+        let mut axes = vec![DVec3::X, DVec3::Y, DVec3::Z, center(other) - center(self)];
+        axes.extend(self.normals());
+        axes.extend(other.normals());
+        if axes.iter().any(|&axis| separates(axis) || separates(-axis)) {
+            return true;
+        }
+        // The point of {b − a} nearest to zero gives the best direction.
+        let mut nearest = center(other) - center(self);
+        for _ in 0..STEPS {
+            if separates(nearest) {
+                return true;
+            }
+            let support = other.farthest(-nearest) - self.farthest(nearest);
+            let step = support - nearest;
+            let length2 = step.length_squared();
+            if !(length2 > 0.0) {
+                return false;
+            }
+            nearest += step * (-nearest.dot(step) / length2).clamp(0.0, 1.0);
+        }
+        false
+    }
+
+    /// Whether this solid surely lies within the other, its surface included up to single precision.
+    fn within(&self, other: &Shape) -> bool {
+        match other {
+            Shape::Rectangle(_) | Shape::Disk(_) => false,
+            Shape::Convex(outer) => {
+                let center = outer.center().as_dvec3();
+                let slack = 4.0 * f32::EPSILON as f64 * (center.abs().max_element() + outer.radius() as f64);
+                let mut facets = outer.facets().iter();
+                facets.all(|f| {
+                    let normal = f.normal.as_dvec3();
+                    self.reach(normal) - normal.dot(center) <= f.offset as f64 + slack
+                })
+            }
+            Shape::Sphere(outer) => {
+                let (center, radius) = (outer.center().as_dvec3(), outer.radius() as f64);
+                let far = match self {
+                    Shape::Sphere(s) => (s.center().as_dvec3() - center).length() + s.radius() as f64,
+                    Shape::Convex(s) => {
+                        s.vertices().iter().map(|v| (v.as_dvec3() - center).length()).fold(0.0, f64::max)
+                    }
+                    Shape::Rectangle(_) | Shape::Disk(_) => return false,
+                };
+                far <= radius + 4.0 * f32::EPSILON as f64 * (center.abs().max_element() + radius)
+            }
+        }
+    }
+
+    /// Largest axis·p over the points of the shape.
+    fn reach(&self, axis: DVec3) -> f64 {
+        match self {
+            Shape::Sphere(s) => axis.dot(s.center().as_dvec3()) + s.radius() as f64 * axis.length(),
+            _ => axis.dot(self.farthest(axis)),
+        }
+    }
+
+    /// A point of the shape that lies farthest along the axis.
+    fn farthest(&self, axis: DVec3) -> DVec3 {
+        match self {
+            Shape::Sphere(s) => s.center().as_dvec3() + axis.normalize_or_zero() * s.radius() as f64,
+            Shape::Rectangle(s) => {
+                let [c, u, v] = [s.flat.center, s.flat.u, s.flat.v].map(|p| p.as_dvec3());
+                c + u * axis.dot(u).signum() + v * axis.dot(v).signum()
+            }
+            Shape::Disk(s) => {
+                let [c, u, v] = [s.flat.center, s.flat.u, s.flat.v].map(|p| p.as_dvec3());
+                let (a, b) = (axis.dot(u), axis.dot(v));
+                let length = (a * a + b * b).sqrt();
+                if length > 0.0 { c + (u * a + v * b) / length } else { c }
+            }
+            Shape::Convex(s) => s
+                .vertices()
+                .iter()
+                .map(|v| v.as_dvec3())
+                .max_by(|a, b| axis.dot(*a).total_cmp(&axis.dot(*b)))
+                .unwrap_or(s.center().as_dvec3()),
+        }
+    }
+
+    fn normals(&self) -> Vec<DVec3> {
+        match self {
+            Shape::Sphere(_) => Vec::new(),
+            Shape::Rectangle(s) => vec![s.flat.normal.as_dvec3()],
+            Shape::Disk(s) => vec![s.flat.normal.as_dvec3()],
+            Shape::Convex(s) => s.facets().iter().map(|f| f.normal.as_dvec3()).collect(),
+        }
+    }
+}
+
+impl World {
+    /// Whether light inside the given solid can be traced with the solid alone: it is a solid, and nothing else reaches
+    /// into it.
+    pub fn stands_alone(&self, id: super::ShapeId) -> bool {
+        self.shape(id).is_some_and(|solid| {
+            let others = self.shapes().iter().enumerate().filter(|(i, _)| *i != id.0 as usize);
+            solid.is_solid() && others.into_iter().all(|(_, other)| !solid.may_touch_inside(other))
+        })
+    }
+}

@@ -1,0 +1,105 @@
+//! Rays that know where they come from, and what they meet.
+
+use glam::Vec3;
+
+/// A shape of a [`World`](super::World), by its position in the list the world was made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ShapeId(pub u32);
+
+/// A side of a surface.
+///
+/// Outside is where the normal points: the outside of a solid, the front of a flat shape. Inside is the solid's inside, or
+/// the back of a flat shape.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Side {
+    Outside,
+    Inside,
+}
+
+impl Side {
+    /// The other side.
+    pub fn opposite(self) -> Self {
+        match self {
+            Side::Outside => Side::Inside,
+            Side::Inside => Side::Outside,
+        }
+    }
+}
+
+/// Where a ray begins.
+///
+/// This takes the place of the usual epsilon: a flat shape, and the outside of a convex solid, cannot be met again by a ray
+/// that leaves them, and a ray that sets off into a solid can only meet its exit. No distance has to be guessed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Departure {
+    /// In the middle of nowhere: a camera.
+    Free,
+    /// On the surface of `shape`, into its `side`: `Outside` for a reflection off a solid and for light that leaves it,
+    /// `Inside` for light that enters it and for a reflection within.
+    Surface { shape: ShapeId, side: Side },
+}
+
+/// A ray; `direction` is a unit vector, distances along it are scene units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    pub origin: Vec3,
+    pub direction: Vec3,
+    pub departs: Departure,
+}
+
+impl Ray {
+    /// A ray from a point that lies on no surface.
+    pub fn free(origin: Vec3, direction: Vec3) -> Self {
+        Self { origin, direction, departs: Departure::Free }
+    }
+
+    /// A ray that leaves the point of a hit, into the given side of the surface.
+    pub fn leaving(hit: &Hit, side: Side, direction: Vec3) -> Self {
+        Self { origin: hit.point, direction, departs: Departure::Surface { shape: hit.shape, side } }
+    }
+}
+
+/// Where a ray meets a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Distance along the ray, ≥ 0.
+    pub t: f32,
+    pub shape: ShapeId,
+    /// The side on which the ray arrives: `Inside` if it was within the solid, or comes to the back of a flat shape.
+    pub side: Side,
+    /// Facet of a convex solid, in the order of [`Convex::facets`](super::Convex::facets); 0 for other shapes.
+    pub facet: u32,
+    /// The point, put back onto the surface: good to a few roundings of its coordinates however far the ray came.
+    pub point: Vec3,
+    /// Geometric unit normal: out of a solid, to the front of a flat shape, whichever side the ray arrives on.
+    pub normal: Vec3,
+    /// Surface coordinates, 0…1 (of a facet: scene units along two axes in its plane).
+    pub uv: [f32; 2],
+}
+
+/// A ray with what the shapes need to know about how exact its origin is.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Probe {
+    pub origin: Vec3,
+    pub direction: Vec3,
+    /// Bound on the distance between the origin and the point it stands for.
+    pub origin_error: f32,
+    /// The ray leaves the outside of a solid, hence moves towards whatever touches the solid there.
+    pub leaves_solid: bool,
+}
+
+/// What a shape answers to a probe; [`Hit`] is worked out for the nearest one only.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Crossing {
+    pub t: f32,
+    /// Bound on the rounding error of `t`.
+    pub slack: f32,
+    pub side: Side,
+    pub facet: u32,
+}
+
+/// |x| + |y| + |z|, the natural measure of the rounding error of a sum of products.
+#[inline]
+pub(super) fn sum_abs(v: Vec3) -> f32 {
+    v.x.abs() + v.y.abs() + v.z.abs()
+}
