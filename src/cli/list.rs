@@ -3,9 +3,10 @@
 use super::{LibraryArgs, show};
 use crate::scene::describe::{IndexSource, Material, ReflectanceSource};
 use crate::scene::{SceneError, Text};
-use crate::spectrum::{About, Library, Quantity};
+use crate::spectrum::{About, Library, Observer, Quantity};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
+use std::path::Path;
 
 #[derive(Debug, Args)]
 pub struct ListArgs {
@@ -66,8 +67,21 @@ pub fn run(args: &ListArgs) -> Result<(), SceneError> {
 }
 
 fn data_sets(library: &Library, quantity: Quantity) -> Result<Vec<Entry>, SceneError> {
-    let entry = |name: &String| Ok(entry(library.about(quantity, name)?, name, quantity.as_str()));
+    let entry = |name: &String| Ok(entry(about(library, quantity, name, Path::new(""))?, name, quantity.as_str()));
     library.names(quantity).iter().map(entry).collect()
+}
+
+fn about(library: &Library, quantity: Quantity, name: &str, base: &Path) -> Result<About, SceneError> {
+    Ok(match quantity {
+        Quantity::Ior => library.ior(name, base)?.about.clone(),
+        Quantity::Reflectance => library.reflectance(name, base)?.about.clone(),
+        Quantity::Absorption => library.absorption(name, base)?.about.clone(),
+        Quantity::Illuminant => library.illuminant(name, base)?.about.clone(),
+        Quantity::Observer => {
+            let known = Observer::ALL.into_iter().find(|observer| observer.name() == name);
+            library.observer(known.unwrap_or(Observer::Cie1931))?.about.clone()
+        }
+    })
 }
 
 fn entry(about: About, name: &str, kind: &str) -> Entry {
@@ -93,7 +107,7 @@ fn materials(library: &Library) -> Result<Vec<Entry>, SceneError> {
 
 fn material(library: &Library, name: &str) -> Result<Entry, SceneError> {
     let found = library.material(name)?;
-    let text = Text::new(found.path, found.text);
+    let text = Text::new(found.origin, found.text);
     let material: Material = text.parse()?;
     let index = |source: &IndexSource| match source {
         IndexSource::Name(name) => Some((Quantity::Ior, name.clone())),
@@ -109,7 +123,7 @@ fn material(library: &Library, name: &str) -> Result<Entry, SceneError> {
         _ => ("no kind", None),
     };
     let about = match &data {
-        Some((quantity, name)) => library.about_from(*quantity, name, text.base())?,
+        Some((quantity, name)) => about(library, *quantity, name, &found.base)?,
         None => About::default(),
     };
     Ok(Entry {

@@ -209,5 +209,5 @@ fn metadata(scene: &Scene, film: &Film, developed: &Developed) -> Metadata {
         .with("fresnel", settings.fresnel.map_or("by material", FresnelModel::name))
         .with("exposure", format!("{} EV", developed.ev))
         .with("white", &scene.picture.white_balance)
-        .with("observer", &scene.picture.observer_name)
+        .with("observer", &scene.picture.observer.about.name)
 }

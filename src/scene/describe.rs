@@ -96,7 +96,8 @@ pub struct Picture {
     pub white_balance: Option<Spanned<String>>,
     #[serde(default)]
     pub gamut: GamutName,
-    pub observer: Option<Spanned<String>>,
+    #[serde(default)]
+    pub observer: ObserverName,
 }
 
 #[derive(Clone, Copy, Debug, Default, Deserialize, Serialize, PartialEq, Eq)]
@@ -105,6 +106,18 @@ pub enum GamutName {
     #[default]
     Clip,
     PreserveChroma,
+}
+
+/// Whose eye the film sees with.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize, PartialEq, Eq)]
+pub enum ObserverName {
+    #[default]
+    #[serde(rename = "cie-1931-2")]
+    Cie1931,
+    #[serde(rename = "cie-1964-10")]
+    Cie1964,
+    #[serde(rename = "cie-2015-2")]
+    Cie2015,
 }
 
 /// `"auto"` or an exposure value.
@@ -314,6 +327,7 @@ pub struct Brilliant {
     pub star_length: Option<f64>,
     pub lower_half_length: Option<f64>,
     pub culet: Option<f64>,
+    pub girdle_facets: Option<u32>,
 }
 
 /// An octagonal step ("emerald") cut with its table towards +z; ratios are of the width, angles in degrees.
@@ -322,9 +336,13 @@ pub struct Brilliant {
 pub struct StepCut {
     pub width: f64,
     pub length: f64,
+    pub corner: Option<f64>,
     pub table: Option<f64>,
+    /// From girdle to table.
     pub crown_angles: Option<[f64; 3]>,
+    /// From girdle to keel.
     pub pavilion_angles: Option<[f64; 3]>,
+    pub girdle: Option<f64>,
 }
 
 /// Applied in this order: scale, rotation about the axis through the origin, translation.

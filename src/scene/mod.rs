@@ -14,7 +14,8 @@ use crate::camera::{Camera, Filter};
 use crate::fresnel::FresnelModel;
 use crate::geometry::{ShapeId, World};
 use crate::light::Lights;
-use crate::spectrum::{About, Arena, Observer, SpectrumId};
+use crate::spectrum::{About, Arena, ColorMatching, SpectrumId};
+use std::sync::Arc;
 
 /// A scene with every name looked up, every unit converted and every check made.
 #[derive(Debug)]
@@ -118,8 +119,7 @@ pub struct Picture {
     /// XYZ of what is white, Y = 1.
     pub white: [f64; 3],
     pub gamut: describe::GamutName,
-    pub observer: Observer,
-    pub observer_name: String,
+    pub observer: Arc<ColorMatching>,
 }
 
 /// A data set that the scene uses, and for what.

@@ -49,7 +49,7 @@ impl Resolver<'_> {
             return Ok(Described { name: wanted.clone(), text: self.text.clone(), material: material.into_inner(), span });
         }
         let found = self.library.material(wanted).map_err(|error| self.unknown_material(name, error))?;
-        let text = Text::new(found.path, found.text);
+        let text = Text::new(found.origin, found.text);
         let material = text.parse()?;
         self.sources.push(text.clone());
         Ok(Described { name: wanted.clone(), text, material, span: 0..0 })

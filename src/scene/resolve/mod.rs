@@ -4,16 +4,18 @@ mod emission;
 mod materials;
 mod shapes;
 
-use super::describe::{self, ExposureValue, SceneFile};
+use super::describe::{self, ExposureValue, ObserverName, SceneFile};
 use super::{DataSet, Inside, Interface, Medium, MediumId, Object, Picture, Scene, SceneError, Settings, Surface, Text};
 use crate::camera::{Camera, Filter, Lens};
 use crate::fresnel::FresnelModel;
 use crate::geometry::{Shape, ShapeId, World};
 use crate::light::{Emitter, Environment, Lights};
-use crate::spectrum::{About, Arena, Library, Observer, Spectrum, SpectrumId, white_xyz};
+use crate::spectrum::{
+    About, Arena, ColorMatching, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Library, Observer, Spectrum, SpectrumId, white_xyz,
+};
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
-use std::ops::Range;
+use std::sync::Arc;
 use toml::Spanned;
 
 /// What a command line says over a scene file.
@@ -39,7 +41,7 @@ const UNCOVERED: f64 = 1e-3;
 pub fn resolve(text: Text, library: &Library, overrides: &Overrides) -> Result<Scene, SceneError> {
     let mut file: SceneFile = text.parse()?;
     let own_materials = std::mem::take(&mut file.materials);
-    let observer_1931 = library.observer("cie-1931-2")?;
+    let observer_1931 = library.observer(Observer::Cie1931)?;
     let mut resolver = Resolver {
         text: &text,
         library,
@@ -68,7 +70,7 @@ struct Resolver<'a> {
     fresnel: Option<FresnelModel>,
     own_names: BTreeSet<String>,
     own_materials: BTreeMap<String, Spanned<describe::Material>>,
-    observer_1931: Observer,
+    observer_1931: Arc<ColorMatching>,
     spectra: Arena,
     surfaces: Vec<Surface>,
     media: Vec<Medium>,
@@ -256,11 +258,7 @@ impl Resolver<'_> {
     }
 
     fn picture(&mut self, picture: &describe::Picture) -> Result<Picture, SceneError> {
-        let observer_name = picture.observer.as_ref().map_or("cie-1931-2", |name| name.get_ref());
-        let observer = match &picture.observer {
-            None => self.observer_1931.clone(),
-            Some(name) => self.library.observer(name.get_ref()).map_err(|error| self.text.error(&name.span(), error))?,
-        };
+        let observer = self.library.observer(observer(picture.observer))?;
         let white_balance = picture.white_balance.as_ref().map_or("D65", |name| name.get_ref()).to_owned();
         let span = picture.white_balance.as_ref().map_or(0..0, Spanned::span);
         let white = if white_balance == "scene" {
@@ -278,7 +276,7 @@ impl Resolver<'_> {
             }
             Some((exposure, _)) => exposure,
         };
-        Ok(Picture { exposure, white_balance, white, gamut: picture.gamut, observer, observer_name: observer_name.to_owned() })
+        Ok(Picture { exposure, white_balance, white, gamut: picture.gamut, observer })
     }
 
     /// Marks the convex dielectrics that nothing else reaches into: their insides are traced without asking the scene.
@@ -307,7 +305,7 @@ impl Resolver<'_> {
         if self.data.iter().any(|data| data.used_by == used_by && data.about.name == about.name) {
             return;
         }
-        let missing = about.range_nm.map_or(0.0, |range| self.observer_1931.share_outside(range));
+        let missing = about.range_nm.map_or(0.0, |range| share_outside(&self.observer_1931, range));
         if let (true, Some((first, last))) = (missing > UNCOVERED, about.range_nm) {
             self.warnings.push(format!(
                 "`{}` ({used_by}) covers {first}–{last} nm: {:.1} % of what the eye sees lies outside, where its ends are held or its formula is extrapolated",
@@ -333,6 +331,22 @@ impl Resolver<'_> {
         }
         Err(self.text.error(&number.span(), format!("`{name}` is {value}: it must be finite and not negative")))
     }
+}
+
+fn observer(name: ObserverName) -> Observer {
+    match name {
+        ObserverName::Cie1931 => Observer::Cie1931,
+        ObserverName::Cie1964 => Observer::Cie1964,
+        ObserverName::Cie2015 => Observer::Cie2015,
+    }
+}
+
+/// How much of what an observer sees lies outside a range of wavelengths, 0…1.
+fn share_outside(observer: &ColorMatching, (first, last): (f64, f64)) -> f64 {
+    let seen = |nm: &f64| observer.at(*nm).iter().sum::<f64>();
+    let all = || (LAMBDA_MIN_NM as u32..=LAMBDA_MAX_NM as u32).map(f64::from);
+    let outside: f64 = all().filter(|nm| !(first..=last).contains(nm)).map(|nm| seen(&nm)).sum();
+    outside / all().map(|nm| seen(&nm)).sum::<f64>()
 }
 
 fn plural(count: usize) -> &'static str {

@@ -1,7 +1,7 @@
 //! Shapes: sizes checked, placed in the world.
 
 use super::Resolver;
-use crate::geometry::{Brilliant, Convex, Disk, GeometryError, Rectangle, Shape, Sphere, StepCut};
+use crate::geometry::{Brilliant, Convex, Disk, GeometryError, Plane, Rectangle, Shape, Sphere, StepCut};
 use crate::scene::SceneError;
 use crate::scene::describe;
 use glam::{Affine3A, DVec3, EulerRot, Quat, Vec3};
@@ -36,9 +36,9 @@ fn build(shape: &describe::Shape) -> Result<Shape, GeometryError> {
             positive("the box's size", cuboid.size)?;
             Shape::Convex(Convex::cuboid(vector(cuboid.center), vector(cuboid.size) / 2.0)?)
         }
-        describe::Shape::Convex(convex) => Shape::Convex(Convex::new(&convex.planes)?),
-        describe::Shape::Brilliant(cut) => Shape::Convex(brilliant(cut).build()?),
-        describe::Shape::StepCut(cut) => Shape::Convex(step_cut(cut).build()?),
+        describe::Shape::Convex(convex) => Shape::Convex(Convex::from_planes(&convex.planes.iter().map(half_space).collect::<Vec<_>>())?),
+        describe::Shape::Brilliant(cut) => Shape::Convex(brilliant(cut).solid()?),
+        describe::Shape::StepCut(cut) => Shape::Convex(step_cut(cut).solid()?),
     })
 }
 
@@ -70,9 +70,14 @@ fn affine(transform: &describe::Transform) -> Affine3A {
     Affine3A::from_scale_rotation_translation(vector(scale), rotation, vector(transform.translate.unwrap_or_default()))
 }
 
+fn half_space(&[x, y, z, offset]: &[f64; 4]) -> Plane {
+    Plane::new(DVec3::new(x, y, z), offset)
+}
+
 fn brilliant(cut: &describe::Brilliant) -> Brilliant {
-    let usual = Brilliant::new(cut.diameter);
+    let usual = Brilliant::default();
     Brilliant {
+        diameter: cut.diameter,
         table: cut.table.unwrap_or(usual.table),
         crown_angle: cut.crown_angle.unwrap_or(usual.crown_angle),
         pavilion_angle: cut.pavilion_angle.unwrap_or(usual.pavilion_angle),
@@ -80,16 +85,19 @@ fn brilliant(cut: &describe::Brilliant) -> Brilliant {
         star_length: cut.star_length.unwrap_or(usual.star_length),
         lower_half_length: cut.lower_half_length.unwrap_or(usual.lower_half_length),
         culet: cut.culet.unwrap_or(usual.culet),
-        ..usual
+        girdle_facets: cut.girdle_facets.unwrap_or(usual.girdle_facets),
     }
 }
 
 fn step_cut(cut: &describe::StepCut) -> StepCut {
-    let usual = StepCut::new(cut.width, cut.length);
+    let usual = StepCut::default();
     StepCut {
+        width: cut.width,
+        length_ratio: cut.length / cut.width,
+        corner: cut.corner.unwrap_or(usual.corner),
         table: cut.table.unwrap_or(usual.table),
         crown_angles: cut.crown_angles.unwrap_or(usual.crown_angles),
         pavilion_angles: cut.pavilion_angles.unwrap_or(usual.pavilion_angles),
-        ..usual
+        girdle: cut.girdle.unwrap_or(usual.girdle),
     }
 }
