@@ -49,13 +49,18 @@ def table(model):
     count = model.length
     w = struct.unpack(f"<{count}f", model.wavelength_um)
     v = struct.unpack(f"<{count}f", model.values)
-    return [decimal32(x) * 1000 for x in w], [decimal32(x) for x in v]
+    # A few tables repeat a wavelength (in the infrared or ultraviolet): the first of the repeats stays.
+    keep = [i for i in range(count) if i == 0 or w[i] != w[i - 1]]
+    return [decimal32(w[i]) * 1000 for i in keep], [decimal32(v[i]) for i in keep]
 
 
 def window(grid, low, high):
     """Index range of the points inside [low, high] and one beyond at each end."""
     inside = [i for i, w in enumerate(grid) if low <= w <= high]
-    return max(inside[0] - 1, 0), min(inside[-1] + 2, len(grid))
+    first, last = max(inside[0] - 1, 0), min(inside[-1] + 2, len(grid))
+    if any(b <= a for a, b in zip(grid[first:last], grid[first + 1:last])):
+        raise ValueError("wavelengths are not in order")
+    return first, last
 
 
 def coefficients(model):
