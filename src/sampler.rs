@@ -51,7 +51,7 @@ impl Sampler {
     pub fn new(kind: Kind, seed: u64, [x, y]: [u32; 2], index: u64) -> Self {
         let block = index / u64::from(POINTS);
         let words = [seed as u32, (seed >> 32) as u32, x, y, block as u32, (block >> 32) as u32];
-        let key = words.iter().fold(0x9e37_79b9, |key, &word| hash(key ^ hash(word ^ key.rotate_left(16))));
+        let key = words.iter().fold(0x9e37_79b9_u32, |key, &word| hash(key ^ hash(word ^ key.rotate_left(16))));
         let point = (index as u32 ^ hash(key ^ 0x5bd1_e995)) % POINTS;
         let points = (kind == Kind::Sobol).then(|| {
             let start = (point * DIMENSIONS) as usize;

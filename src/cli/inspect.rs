@@ -1,7 +1,8 @@
 //! `spectrel inspect`: what a scene is understood to be.
 
 use super::{SceneArgs, show};
-use crate::scene::{Decision, Needs, Overrides, Scene, SceneError, resolve};
+use crate::geometry::Shape;
+use crate::scene::{Decision, Interface, Needs, Overrides, Scene, SceneError, Surface, resolve};
 use clap::Args;
 use serde::Serialize;
 
@@ -29,9 +30,9 @@ struct Report {
 #[derive(Serialize)]
 struct ObjectReport {
     name: String,
-    shape: &'static str,
+    shape: String,
     material: String,
-    kind: &'static str,
+    kind: String,
 }
 
 #[derive(Serialize)]
@@ -61,9 +62,9 @@ pub fn run(args: &InspectArgs) -> Result<(), SceneError> {
 fn report(scene: &Scene, physics: Vec<Decision>) -> Report {
     let objects = scene.objects.iter().zip(scene.world.shapes()).map(|(object, shape)| ObjectReport {
         name: object.name.clone(),
-        shape: shape.kind(),
+        shape: shape_kind(shape),
         material: object.material.clone(),
-        kind: scene.surfaces[object.surface as usize].kind(),
+        kind: surface_kind(&scene.surfaces[object.surface as usize]),
     });
     let data = scene.data.iter().map(|data| DataReport {
         used_by: data.used_by.clone(),
@@ -87,6 +88,25 @@ fn report(scene: &Scene, physics: Vec<Decision>) -> Report {
     }
 }
 
+fn shape_kind(shape: &Shape) -> String {
+    match shape {
+        Shape::Sphere(_) => "sphere".into(),
+        Shape::Rectangle(_) => "rectangle".into(),
+        Shape::Disk(_) => "disk".into(),
+        Shape::Convex(solid) => format!("solid of {} facets", solid.facets().len()),
+    }
+}
+
+fn surface_kind(surface: &Surface) -> String {
+    match surface {
+        Surface::Black => "black".into(),
+        Surface::Diffuse { .. } => "diffuse".into(),
+        Surface::Conductor { alpha: 0.0, model, .. } => format!("smooth conductor, {model} Fresnel"),
+        Surface::Conductor { alpha, model, .. } => format!("conductor of roughness {alpha}, {model} Fresnel"),
+        Surface::Dielectric(Interface { model, .. }) => format!("dielectric, {model} Fresnel"),
+    }
+}
+
 fn text(report: &Report) -> String {
     let mut parts = vec![format!(
         "{} × {} pixels, {} samples each; {} objects, {} of them shine",
@@ -99,7 +119,7 @@ fn text(report: &Report) -> String {
     let objects: Vec<[String; 4]> = report
         .objects
         .iter()
-        .map(|o| [format!("  {}", o.name), o.shape.into(), o.material.clone(), o.kind.into()])
+        .map(|o| [format!("  {}", o.name), o.shape.clone(), o.material.clone(), o.kind.clone()])
         .collect();
     parts.push(format!("Objects\n{}", show::columns(&objects)));
     let physics: Vec<[String; 3]> = report

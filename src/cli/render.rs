@@ -2,10 +2,12 @@
 
 use super::progress::Shown;
 use super::{SceneArgs, show};
-use crate::film::{Developed, Film, Window};
+use crate::film::{Develop, Developed, Exposure, Film, Gamut, Window};
 use crate::fresnel::FresnelModel;
+use crate::image::metadata::fnv1a_64;
 use crate::image::{self, Bits, ExrSpace, Metadata, Options};
 use crate::render::{Kernel, render};
+use crate::scene::describe::{ExposureValue, GamutName};
 use crate::scene::{Needs, Overrides, Scene, SceneError, resolve};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -124,7 +126,7 @@ pub fn run(args: &RenderArgs) -> Result<(), SceneError> {
     scene.warnings.iter().for_each(show::warning);
     let needs = Needs::of(&scene);
     let film = expose(&scene, &needs, args)?;
-    let developed = film.develop(&scene.picture.develop()).map_err(SceneError::new)?;
+    let developed = film.develop(&development(&scene)).map_err(SceneError::new)?;
     report(&developed, args.quiet);
     for path in &outputs {
         let written = image::write(path, &developed, &args.options(), &metadata(&scene, &film, &developed))
@@ -194,13 +196,28 @@ fn report(developed: &Developed, quiet: bool) {
     developed.report.warnings().iter().for_each(show::warning);
 }
 
+fn development(scene: &Scene) -> Develop {
+    Develop {
+        exposure: match scene.picture.exposure {
+            ExposureValue::Auto => Exposure::Auto,
+            ExposureValue::Ev(ev) => Exposure::Ev(ev),
+        },
+        white: scene.picture.white,
+        gamut: match scene.picture.gamut {
+            GamutName::Clip => Gamut::Clip,
+            GamutName::PreserveChroma => Gamut::PreserveChroma,
+        },
+        ..Develop::default()
+    }
+}
+
 /// What determines the picture.
 fn metadata(scene: &Scene, film: &Film, developed: &Developed) -> Metadata {
     let settings = &scene.settings;
     let [x0, y0, x1, y1] = settings.crop;
     Metadata::new()
         .with("version", env!("CARGO_PKG_VERSION"))
-        .with("scene", format!("{:016x}", scene.hash()))
+        .with("scene", format!("{:016x}", fingerprint(scene)))
         .with("size", format!("{}x{}", settings.width, settings.height))
         .with("crop", format!("{x0},{y0},{x1},{y1}"))
         .with("samples", film.samples() / film.window().pixel_count())
@@ -210,4 +227,10 @@ fn metadata(scene: &Scene, film: &Film, developed: &Developed) -> Metadata {
         .with("exposure", format!("{} EV", developed.ev))
         .with("white", &scene.picture.white_balance)
         .with("observer", &scene.picture.observer.about.name)
+}
+
+/// Identifies what is rendered: the texts of scene and materials, and every spectrum that came of them.
+fn fingerprint(scene: &Scene) -> u64 {
+    let texts: String = scene.sources.iter().map(|text| text.content.as_str()).collect();
+    fnv1a_64(format!("{texts}{:?}", scene.spectra).as_bytes())
 }

@@ -105,7 +105,7 @@ impl Lights {
     pub fn sample(&self, world: &World, from: Vec3, choice: f32, u: [f32; 2]) -> Option<LightSample> {
         let index = self.cumulative.iter().position(|&share| choice < share)?;
         let emitter = self.emitters[index];
-        let toward = world.shape(emitter.shape).sample_toward(from, u)?;
+        let toward = world.shape(emitter.shape)?.sample_toward(from, u)?;
         let front = toward.normal.dot(toward.direction) < 0.0;
         (front || emitter.two_sided).then_some(LightSample {
             direction: toward.direction,
@@ -127,6 +127,7 @@ impl Lights {
     #[inline]
     pub fn pdf(&self, world: &World, from: Vec3, direction: Vec3, hit: &Hit) -> f32 {
         let Some(index) = self.of_shape[hit.shape.0 as usize] else { return 0.0 };
-        world.shape(hit.shape).pdf_toward(from, direction, hit) * self.probability(index as usize)
+        let Some(shape) = world.shape(hit.shape) else { return 0.0 };
+        shape.pdf_toward(from, direction, hit) * self.probability(index as usize)
     }
 }

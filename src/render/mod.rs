@@ -10,9 +10,10 @@ mod scatter;
 mod stone;
 
 use crate::film::{Film, Pixel};
-use crate::sampler::Sampler;
+use crate::sampler::{self, Sampler};
+use crate::scene::describe::SamplerName;
 use crate::scene::{Needs, Scene};
-use crate::spectrum::{Nodes, SpectrumId, Tables};
+use crate::spectrum::{LUMENS_PER_WATT, NODE_COUNT, Nodes, SpectrumId, Tables};
 use path::Path;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -39,24 +40,30 @@ pub struct Kernel<'a> {
     /// X, Y and Z per spectral radiance: observer × node width × 683 lm/W.
     observer: [SpectrumId; 3],
     max_depth: u32,
+    sampler: sampler::Kind,
 }
 
 impl<'a> Kernel<'a> {
     pub fn new(scene: &'a Scene, needs: &'a Needs) -> Self {
         let nodes = Nodes::new(&needs.wavelength_density);
         let mut tables = scene.spectra.tabulate(&nodes, scene.settings.lanes as usize);
-        let sets = f64::from(tables.sets());
-        let observer = nodes
-            .observer_weights(&scene.picture.observer)
-            .map(|by_node| tables.push(&by_node.iter().map(|weight| (weight * sets) as f32).collect::<Vec<_>>()));
-        Self { scene, needs, tables, observer, max_depth: scene.settings.max_depth.unwrap_or(u32::MAX) }
+        let scale = f64::from(tables.sets()) * LUMENS_PER_WATT;
+        let observer = [0, 1, 2].map(|axis| {
+            let weight = |node| nodes.weight_nm(node) * scene.picture.observer.at(nodes.wavelength_nm(node))[axis] * scale;
+            tables.push(&(0..NODE_COUNT).map(|node| weight(node) as f32).collect::<Vec<_>>())
+        });
+        let sampler = match scene.settings.sampler {
+            SamplerName::Sobol => sampler::Kind::Sobol,
+            SamplerName::Independent => sampler::Kind::Independent,
+        };
+        Self { scene, needs, tables, observer, max_depth: scene.settings.max_depth.unwrap_or(u32::MAX), sampler }
     }
 
     /// XYZ in cd/m² of one sample of one pixel.
     #[inline]
     fn sample<const N: usize>(&self, pixel: [u32; 2], index: u64) -> [f32; 3] {
         let settings = &self.scene.settings;
-        let mut sampler = Sampler::new(settings.sampler, settings.seed, pixel, index);
+        let mut sampler = Sampler::new(self.sampler, settings.seed, pixel, index);
         let offset = sampler.next_set(self.tables.sets()) * N as u32;
         let [dx, dy] = self.scene.filter.sample(sampler.next_2d());
         let ray = self.scene.camera.ray(pixel[0] as f32 + 0.5 + dx, pixel[1] as f32 + 0.5 + dy);

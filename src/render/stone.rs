@@ -9,7 +9,7 @@ use super::path::Path;
 use super::Kernel;
 use crate::bsdf::dielectric::{reflect_lanes, refract_lanes};
 use crate::bsdf::{Directions, choose};
-use crate::geometry::{Convex, Hit, Points, Shape};
+use crate::geometry::{Hit, Points, Shape};
 use crate::sampler::Sampler;
 use crate::scene::{Interface, MediumId};
 use crate::spectrum::Lanes;

@@ -37,7 +37,7 @@ impl Needs {
             environment(scene),
         ];
         Self {
-            wavelength_density: Density::with_lines(&lines),
+            wavelength_density: Density::with_lines(lines.iter().copied()),
             light_sampling: light_sampling(scene).used,
             decisions,
         }

@@ -57,6 +57,18 @@ pub enum Confidence {
     Unstated,
 }
 
+impl fmt::Display for Confidence {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::High => "high",
+            Self::Medium => "medium",
+            Self::Low => "low",
+            Self::Modelled => "modelled",
+            Self::Unstated => "unstated",
+        })
+    }
+}
+
 /// Who published the numbers.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -1,6 +1,6 @@
 //! The spectra of a scene, each once, and their values at the nodes that a render uses.
 
-use super::{Lanes, Nodes, Spectrum};
+use super::{Lanes, NODE_COUNT, Nodes, Spectrum};
 
 /// One spectrum of an [`Arena`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -36,7 +36,7 @@ impl Arena {
 
     /// The values of every spectrum at every node, for paths of `lanes` wavelengths.
     pub fn tabulate(&self, nodes: &Nodes, lanes: usize) -> Tables {
-        let mut tables = Tables { values: Vec::with_capacity(self.len() * nodes.len()), lanes, nodes: nodes.len() };
+        let mut tables = Tables { values: Vec::with_capacity(self.len() * NODE_COUNT), lanes };
         for spectrum in &self.spectra {
             tables.push(&nodes.tabulate(spectrum));
         }
@@ -51,26 +51,25 @@ impl Arena {
 pub struct Tables {
     values: Vec<f32>,
     lanes: usize,
-    nodes: usize,
 }
 
 impl Tables {
     /// Appends one more table given by node, and tells its id.
     pub fn push(&mut self, by_node: &[f32]) -> SpectrumId {
-        let id = SpectrumId((self.values.len() / self.nodes) as u32);
-        let sets = self.nodes / self.lanes;
-        self.values.extend((0..self.nodes).map(|offset| by_node[offset / self.lanes + offset % self.lanes * sets]));
+        let id = SpectrumId((self.values.len() / NODE_COUNT) as u32);
+        let sets = NODE_COUNT / self.lanes;
+        self.values.extend((0..NODE_COUNT).map(|offset| by_node[offset / self.lanes + offset % self.lanes * sets]));
         id
     }
 
     /// How many sets of wavelengths there are.
     pub fn sets(&self) -> u32 {
-        (self.nodes / self.lanes) as u32
+        (NODE_COUNT / self.lanes) as u32
     }
 
     #[inline]
     pub fn get<const N: usize>(&self, id: SpectrumId, offset: u32) -> Lanes<N> {
-        let start = id.0 as usize * self.nodes + offset as usize;
+        let start = id.0 as usize * NODE_COUNT + offset as usize;
         let lanes = &self.values[start..start + N];
         Lanes(std::array::from_fn(|lane| lanes[lane]))
     }

@@ -5,11 +5,13 @@
 //!   `rii_page`, `csv_file` read the formats; `about` is the provenance that comes along.
 //! - `integrate`: exact integrals of products of spectra; `observer`: the CIE observers.
 //! - `nodes`: the wavelengths that the renderer uses, and how they sample an integral; `lanes`: those of one path.
+//! - `arena`: the spectra of a scene and their tables.
 //! - `color`, `spaces`, `delta_e`, `upsample`: from XYZ to RGB, to a colour difference, and from RGB to a reflectance.
 //!
 //! Wavelengths are vacuum wavelengths in nm; what reaches a picture uses `libm`, so that every machine agrees.
 
 mod about;
+mod arena;
 mod bands;
 mod color;
 mod csv_file;
@@ -30,6 +32,7 @@ mod table;
 mod toml_file;
 mod upsample;
 
+pub use arena::{Arena, SpectrumId, Tables};
 pub use about::{About, Confidence, Dataset, Ior, Quantity, Sample, Source};
 pub use bands::{Band, Bands};
 pub use color::{Matrix3, Xyz, bradford, lab_from_xyz, xyz_from_lab, xyz_from_xy};

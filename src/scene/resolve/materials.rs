@@ -4,7 +4,9 @@ use super::Resolver;
 use crate::fresnel::FresnelModel;
 use crate::scene::describe::{self, AbsorptionSource, IndexSource, ReflectanceSource};
 use crate::scene::{Inside, Interface, Medium, MediumId, SceneError, Surface, Text};
-use crate::spectrum::{About, Ior, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Outside, Spectrum, SpectrumError, Table, nearest, upsample};
+use crate::spectrum::{
+    Ior, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Outside, Spectrum, SpectrumError, Table, Upsampler, nearest,
+};
 use std::ops::Range;
 use std::sync::Arc;
 use toml::Spanned;
@@ -177,9 +179,8 @@ impl Resolver<'_> {
             ReflectanceSource::Constant(value) => {
                 return Err(text.error(&source.span(), format!("a reflectance of {value}: it lies between 0 and 1")));
             }
-            &ReflectanceSource::Rgb(rgb) if rgb.iter().all(|c| (0.0..=1.0).contains(c)) => upsample(rgb),
-            ReflectanceSource::Rgb(rgb) => {
-                return Err(text.error(&source.span(), format!("{rgb:?} is no colour of a surface: each of linear r, g, b lies between 0 and 1")));
+            &ReflectanceSource::Rgb(rgb) => {
+                Upsampler::new(self.library)?.reflectance(rgb).map_err(|error| text.error(&source.span(), error))?
             }
         };
         Ok(Surface::Diffuse { reflectance: self.spectra.add(spectrum) })

@@ -5,7 +5,7 @@ mod materials;
 mod shapes;
 
 use super::describe::{self, ExposureValue, ObserverName, SceneFile};
-use super::{DataSet, Inside, Interface, Medium, MediumId, Object, Picture, Scene, SceneError, Settings, Surface, Text};
+use super::{DataSet, Inside, Interface, Medium, Object, Picture, Scene, SceneError, Settings, Surface, Text};
 use crate::camera::{Camera, Filter, Lens};
 use crate::fresnel::FresnelModel;
 use crate::geometry::{Shape, ShapeId, World};
@@ -42,7 +42,7 @@ pub fn resolve(text: Text, library: &Library, overrides: &Overrides) -> Result<S
     let mut file: SceneFile = text.parse()?;
     let own_materials = std::mem::take(&mut file.materials);
     let observer_1931 = library.observer(Observer::Cie1931)?;
-    let mut resolver = Resolver {
+    let resolver = Resolver {
         text: &text,
         library,
         meters_per_unit: None,

@@ -34,11 +34,11 @@ fn build(shape: &describe::Shape) -> Result<Shape, GeometryError> {
         }
         describe::Shape::Box(cuboid) => {
             positive("the box's size", cuboid.size)?;
-            Shape::Convex(Convex::cuboid(vector(cuboid.center), vector(cuboid.size) / 2.0)?)
+            Convex::cuboid(vector(cuboid.center), vector(cuboid.size) / 2.0)?.into()
         }
-        describe::Shape::Convex(convex) => Shape::Convex(Convex::from_planes(&convex.planes.iter().map(half_space).collect::<Vec<_>>())?),
-        describe::Shape::Brilliant(cut) => Shape::Convex(brilliant(cut).solid()?),
-        describe::Shape::StepCut(cut) => Shape::Convex(step_cut(cut).solid()?),
+        describe::Shape::Convex(convex) => Convex::from_planes(&convex.planes.iter().map(half_space).collect::<Vec<_>>())?.into(),
+        describe::Shape::Brilliant(cut) => brilliant(cut).solid()?.into(),
+        describe::Shape::StepCut(cut) => step_cut(cut).solid()?.into(),
     })
 }
 
