@@ -1,0 +1,70 @@
+//! What the tests of whole renders share: scenes from text, means of pictures, statistics of independent renders.
+
+#![allow(dead_code, reason = "each test binary uses a part")]
+
+use spectrel::film::{Film, Window};
+use spectrel::render::{Kernel, render};
+use spectrel::scene::{Needs, Overrides, Scene, Text, resolve};
+use spectrel::spectrum::Library;
+use std::sync::atomic::AtomicBool;
+
+pub fn library() -> Library {
+    Library::new(Vec::new())
+}
+
+pub fn scene(text: &str, overrides: &Overrides) -> Scene {
+    resolve(Text::new("tests/scene.toml", text), &library(), overrides).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// All samples of a scene's crop window.
+pub fn film(scene: &Scene) -> Film {
+    let [x0, y0, x1, y1] = scene.settings.crop;
+    let window = Window { x0, y0, width: x1 - x0, height: y1 - y0 };
+    let mut film = Film::new([scene.settings.width, scene.settings.height], window).expect("a small film");
+    let needs = Needs::of(scene);
+    let kernel = Kernel::new(scene, &needs);
+    render(&kernel, &mut film, 0..u64::from(scene.settings.samples), &(), &AtomicBool::new(false));
+    film
+}
+
+/// Mean XYZ of a film, cd/m².
+pub fn mean(film: &Film) -> [f64; 3] {
+    let pixels = film.pixels();
+    let sum = pixels.iter().fold([0.0; 3], |sum, pixel| std::array::from_fn(|i| sum[i] + pixel.mean()[i]));
+    sum.map(|value| value / pixels.len() as f64)
+}
+
+/// Mean XYZ of a picture rendered with `count` seeds of its own, from `first` on.
+pub fn replicates(text: &str, overrides: &Overrides, first: u64, count: u64) -> Vec<[f64; 3]> {
+    let render = |seed| mean(&film(&scene(text, &Overrides { seed: Some(seed), ..overrides.clone() })));
+    (first..first + count).map(render).collect()
+}
+
+/// Mean and standard error of the mean of independent values.
+pub fn mean_and_error(values: &[f64]) -> (f64, f64) {
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    let variance = values.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>() / (n - 1.0);
+    (mean, (variance / n).sqrt())
+}
+
+/// Largest |z| over X, Y and Z between two sets of independent renders (Welch).
+pub fn z_between(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
+    let channel = |set: &[[f64; 3]], i: usize| mean_and_error(&set.iter().map(|xyz| xyz[i]).collect::<Vec<_>>());
+    (0..3)
+        .map(|i| {
+            let ((mean_a, error_a), (mean_b, error_b)) = (channel(a, i), channel(b, i));
+            (mean_a - mean_b).abs() / (error_a * error_a + error_b * error_b).sqrt()
+        })
+        .fold(0.0, f64::max)
+}
+
+/// Largest |z| over X, Y and Z of independent renders against a known value.
+pub fn z_against(renders: &[[f64; 3]], expected: [f64; 3]) -> f64 {
+    (0..3)
+        .map(|i| {
+            let (mean, error) = mean_and_error(&renders.iter().map(|xyz| xyz[i]).collect::<Vec<_>>());
+            (mean - expected[i]).abs() / error
+        })
+        .fold(0.0, f64::max)
+}

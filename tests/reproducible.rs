@@ -1,0 +1,63 @@
+//! The picture depends on scene and seed alone: not on threads, on how a job is cut, or on the build.
+
+mod common;
+
+use common::{film, library, scene};
+use spectrel::film::{Film, Window};
+use spectrel::image::metadata::fnv1a_64;
+use spectrel::render::{Kernel, render};
+use spectrel::scene::{Needs, Overrides};
+use std::sync::atomic::AtomicBool;
+
+/// Everything that a film is made of meets here: stones, rough and smooth metal, absorption, lights, two filters' worth of
+/// pixels.
+const SCENE: &str = include_str!("../scenes/tray.toml");
+
+fn small() -> Overrides {
+    Overrides { width: Some(48), height: Some(32), samples: Some(20), seed: Some(7), ..Overrides::default() }
+}
+
+fn in_threads(threads: usize) -> Film {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+    pool.install(|| film(&scene(SCENE, &small())))
+}
+
+#[test]
+fn one_thread_and_two_give_the_same_film() {
+    assert!(in_threads(1) == in_threads(2));
+}
+
+#[test]
+fn parts_of_a_job_merge_into_the_same_film() {
+    let scene = scene(SCENE, &small());
+    let needs = Needs::of(&scene);
+    let kernel = Kernel::new(&scene, &needs);
+    let part = |samples, window| {
+        let mut film = Film::new([48, 32], window).expect("a small film");
+        render(&kernel, &mut film, samples, &(), &AtomicBool::new(false));
+        film
+    };
+    let mut whole = part(13..20, Window::full(48, 32));
+    whole.merge(&part(0..13, Window { x0: 0, y0: 0, width: 48, height: 32 })).expect("the same window");
+    assert!(whole == film(&scene), "ranges of samples");
+    let mut tiled = Film::new([48, 32], Window::full(48, 32)).expect("a small film");
+    for tile in Window::full(48, 32).tiles(20) {
+        tiled.merge_tile(&part(0..20, tile)).expect("inside");
+    }
+    assert!(tiled == film(&scene), "windows");
+}
+
+/// Run in debug and in release: both must find the value that stands here.
+#[test]
+fn every_build_gives_these_bits() {
+    let _ = library();
+    let film = in_threads(2);
+    let sums: Vec<u8> = film.pixels().iter().flat_map(|pixel| pixel.mean()).flat_map(f64::to_le_bytes).collect();
+    assert_eq!(format!("{:016x}", fnv1a_64(&sums)), "golden");
+}
+
+#[test]
+fn another_seed_gives_another_film() {
+    let other = Overrides { seed: Some(8), ..small() };
+    assert!(film(&scene(SCENE, &other)) != film(&scene(SCENE, &small())));
+}
