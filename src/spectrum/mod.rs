@@ -1,5 +1,56 @@
-//! Functions of wavelength.
+//! Functions of wavelength: what they are, where their data come from, and what an eye makes of them.
+//!
+//! - `curve`: [`Spectrum`], the closed set of functions; `table`, `formula`, `emission`, `bands`, `sigmoid` are its kinds.
+//! - `library`: [`Library`], data sets and materials by name, built in or from a user's folders; `toml_file`,
+//!   `rii_page`, `csv_file` read the formats; `about` is the provenance that comes along.
+//! - `integrate`: exact integrals of products of spectra; `observer`: the CIE observers.
+//! - `nodes`: the wavelengths that the renderer uses, and how they sample an integral; `lanes`: those of one path.
+//! - `color`, `spaces`, `delta_e`, `upsample`: from XYZ to RGB, to a colour difference, and from RGB to a reflectance.
+//!
+//! Wavelengths are vacuum wavelengths in nm; what reaches a picture uses `libm`, so that every machine agrees.
 
+mod about;
+mod bands;
+mod color;
+mod csv_file;
+mod curve;
+mod delta_e;
+mod emission;
+mod error;
+mod formula;
+mod integrate;
 mod lanes;
+mod library;
+mod nodes;
+mod observer;
+mod rii_page;
+mod sigmoid;
+mod spaces;
+mod table;
+mod toml_file;
+mod upsample;
 
+pub use about::{About, Confidence, Dataset, Ior, Quantity, Sample, Source};
+pub use bands::{Band, Bands};
+pub use color::{Matrix3, Xyz, bradford, lab_from_xyz, xyz_from_lab, xyz_from_xy};
+pub use curve::Spectrum;
+pub use delta_e::ciede2000;
+pub use emission::{Daylight, Line, planck};
+pub use error::{SpectrumError, nearest};
+pub use formula::{Formula, FormulaType};
+pub use integrate::{integrate, luminance, tristimulus, tristimulus_1nm, white_xyz, white_xyz_1nm};
 pub use lanes::{LANES, Lanes};
+pub use library::{Library, MaterialText};
+pub use nodes::{Density, NODE_COUNT, Nodes};
+pub use observer::{ColorMatching, Observer};
+pub use sigmoid::Sigmoid;
+pub use spaces::{RgbSpace, decode_srgb, encode_srgb, hex_from_srgb, srgb_from_hex};
+pub use table::{Outside, Table};
+pub use upsample::Upsampler;
+
+/// First and last wavelength that integrals, observers and the renderer use, nm.
+pub const LAMBDA_MIN_NM: f64 = 360.0;
+pub const LAMBDA_MAX_NM: f64 = 830.0;
+
+/// Luminous efficacy, lm/W: luminance in cd/m² is this times ∫ L ȳ dλ.
+pub const LUMENS_PER_WATT: f64 = 683.0;

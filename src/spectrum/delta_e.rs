@@ -1,0 +1,71 @@
+//! The colour difference CIEDE2000 (G. Sharma, W. Wu & E. N. Dalal, "The CIEDE2000 color-difference formula:
+//! implementation notes, supplementary test data, and mathematical observations", Color Research & Application 30
+//! (2005), equations 2–22). 1 is about what an eye can just tell.
+
+use std::f64::consts::PI;
+
+/// ΔE00 of two colours in L*a*b*, k_L = k_C = k_H = 1.
+pub fn ciede2000(first: [f64; 3], second: [f64; 3]) -> f64 {
+    let ([l1, a1, b1], [l2, a2, b2]) = (first, second);
+    let mean_chroma = 0.5 * (libm::hypot(a1, b1) + libm::hypot(a2, b2));
+    let g = 0.5 * (1.0 - seventh_root_ratio(mean_chroma));
+    let (a1, a2) = ((1.0 + g) * a1, (1.0 + g) * a2);
+    let (c1, c2) = (libm::hypot(a1, b1), libm::hypot(a2, b2));
+    let (h1, h2) = (hue(a1, b1), hue(a2, b2));
+
+    let grey = c1 * c2 == 0.0;
+    let apart = h2 - h1;
+    let d_hue = match () {
+        () if grey => 0.0,
+        () if apart > PI => apart - 2.0 * PI,
+        () if apart < -PI => apart + 2.0 * PI,
+        () => apart,
+    };
+    let d_l = l2 - l1;
+    let d_c = c2 - c1;
+    let d_h = 2.0 * libm::sqrt(c1 * c2) * libm::sin(0.5 * d_hue);
+
+    let mean_l = 0.5 * (l1 + l2);
+    let mean_c = 0.5 * (c1 + c2);
+    let sum = h1 + h2;
+    let mean_h = match () {
+        () if grey => sum,
+        () if apart.abs() <= PI => 0.5 * sum,
+        () if sum < 2.0 * PI => 0.5 * (sum + 2.0 * PI),
+        () => 0.5 * (sum - 2.0 * PI),
+    };
+
+    let degrees = |value: f64| value * PI / 180.0;
+    let t = 1.0 - 0.17 * libm::cos(mean_h - degrees(30.0))
+        + 0.24 * libm::cos(2.0 * mean_h)
+        + 0.32 * libm::cos(3.0 * mean_h + degrees(6.0))
+        - 0.20 * libm::cos(4.0 * mean_h - degrees(63.0));
+    let from_blue = (mean_h / degrees(1.0) - 275.0) / 25.0;
+    let rotation = degrees(30.0) * libm::exp(-from_blue * from_blue);
+    let l50 = (mean_l - 50.0) * (mean_l - 50.0);
+    let s_l = 1.0 + 0.015 * l50 / libm::sqrt(20.0 + l50);
+    let s_c = 1.0 + 0.045 * mean_c;
+    let s_h = 1.0 + 0.015 * mean_c * t;
+    let r_t = -libm::sin(2.0 * rotation) * 2.0 * seventh_root_ratio(mean_c);
+
+    let (l, c, h) = (d_l / s_l, d_c / s_c, d_h / s_h);
+    libm::sqrt((l * l + c * c + h * h + r_t * c * h).max(0.0))
+}
+
+/// √(C⁷ / (C⁷ + 25⁷))
+fn seventh_root_ratio(chroma: f64) -> f64 {
+    let c7 = libm::pow(chroma, 7.0);
+    libm::sqrt(c7 / (c7 + 6_103_515_625.0))
+}
+
+/// Hue angle, 0…2π; 0 for grey.
+fn hue(a: f64, b: f64) -> f64 {
+    let angle = libm::atan2(b, a);
+    if a == 0.0 && b == 0.0 {
+        0.0
+    } else if angle < 0.0 {
+        angle + 2.0 * PI
+    } else {
+        angle
+    }
+}

@@ -1,0 +1,159 @@
+//! RGB spaces: matrices derived from primaries and white in f64, never the rounded ones of the standards, and the sRGB
+//! transfer curve.
+
+use super::color::{Matrix3, Xyz, xyz_from_xy};
+
+/// The RGB spaces that pictures are written in. All linear; encoding is separate.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum RgbSpace {
+    /// IEC 61966-2-1, the primaries of ITU-R BT.709.
+    #[default]
+    Srgb,
+    /// SMPTE EG 432-1 primaries with D65.
+    DisplayP3,
+    /// ITU-R BT.2020.
+    Rec2020,
+    /// ACEScg: AP1 primaries, the ACES white near D60 (S-2014-004).
+    AcesCg,
+}
+
+impl RgbSpace {
+    pub const ALL: [Self; 4] = [Self::Srgb, Self::DisplayP3, Self::Rec2020, Self::AcesCg];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Srgb => "srgb",
+            Self::DisplayP3 => "display-p3",
+            Self::Rec2020 => "rec2020",
+            Self::AcesCg => "acescg",
+        }
+    }
+
+    /// By name, case and separators aside; `rec709` is linear sRGB.
+    pub fn from_name(name: &str) -> Option<Self> {
+        let plain: String = name.chars().filter(char::is_ascii_alphanumeric).collect::<String>().to_lowercase();
+        match plain.as_str() {
+            "srgb" | "rec709" | "bt709" => Some(Self::Srgb),
+            "displayp3" | "p3" => Some(Self::DisplayP3),
+            "rec2020" | "bt2020" => Some(Self::Rec2020),
+            "acescg" | "ap1" => Some(Self::AcesCg),
+            _ => None,
+        }
+    }
+
+    /// Chromaticities (x, y) of red, green, blue.
+    pub fn primaries_xy(self) -> [[f64; 2]; 3] {
+        match self {
+            Self::Srgb => [[0.640, 0.330], [0.300, 0.600], [0.150, 0.060]],
+            Self::DisplayP3 => [[0.680, 0.320], [0.265, 0.690], [0.150, 0.060]],
+            Self::Rec2020 => [[0.708, 0.292], [0.170, 0.797], [0.131, 0.046]],
+            Self::AcesCg => [[0.713, 0.293], [0.165, 0.830], [0.128, 0.044]],
+        }
+    }
+
+    /// Chromaticity (x, y) of its white.
+    pub fn white_xy(self) -> [f64; 2] {
+        match self {
+            Self::AcesCg => [0.32168, 0.33767],
+            Self::Srgb | Self::DisplayP3 | Self::Rec2020 => [0.3127, 0.3290],
+        }
+    }
+
+    /// XYZ of its white, Y = 1.
+    pub fn white_xyz(self) -> Xyz {
+        xyz_from_xy(self.white_xy())
+    }
+
+    /// Linear RGB to XYZ (SMPTE RP 177-1993): the primaries, scaled so that (1, 1, 1) is the white.
+    pub fn xyz_from_rgb(self) -> Matrix3 {
+        let primaries = Matrix3(self.primaries_xy().map(xyz_from_xy)).transposed();
+        let Some(inverse) = primaries.inverse() else { return Matrix3::IDENTITY };
+        primaries.after(&Matrix3::diagonal(inverse.apply(self.white_xyz())))
+    }
+
+    /// XYZ relative to its white to linear RGB.
+    pub fn rgb_from_xyz(self) -> Matrix3 {
+        self.xyz_from_rgb().inverse().unwrap_or(Matrix3::IDENTITY)
+    }
+}
+
+/// The sRGB curve (IEC 61966-2-1, equations 8–9): linear to encoded. Odd beyond 0, so that colours outside the gamut survive.
+pub fn encode_srgb(linear: f64) -> f64 {
+    let size = linear.abs();
+    let encoded = if size <= 0.0031308 { 12.92 * size } else { 1.055 * libm::pow(size, 1.0 / 2.4) - 0.055 };
+    encoded.copysign(linear)
+}
+
+/// Encoded to linear.
+pub fn decode_srgb(encoded: f64) -> f64 {
+    let size = encoded.abs();
+    let linear = if size <= 0.04045 { size / 12.92 } else { libm::pow((size + 0.055) / 1.055, 2.4) };
+    linear.copysign(encoded)
+}
+
+/// Linear sRGB as `#rrggbb`, clipped to 0…1: for people to read, the caller says if something was clipped.
+pub fn hex_from_srgb(linear: [f64; 3]) -> String {
+    let [r, g, b] = linear.map(|value| (encode_srgb(value).clamp(0.0, 1.0) * 255.0).round() as u8);
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+/// Linear sRGB of `#rrggbb`, with or without the #; `None` if it is no such colour.
+pub fn srgb_from_hex(hex: &str) -> Option<[f64; 3]> {
+    let digits = hex.strip_prefix('#').unwrap_or(hex);
+    if digits.len() != 6 || !digits.bytes().all(|byte| byte.is_ascii_hexdigit()) {
+        return None;
+    }
+    let number = u32::from_str_radix(digits, 16).ok()?;
+    Some([16, 8, 0].map(|shift| decode_srgb(f64::from(number >> shift & 0xff) / 255.0)))
+}
+
+#[cfg(test)]
+mod tests {
+    use palette::convert::IntoColorUnclamped;
+
+    use super::*;
+
+    #[test]
+    fn matrices_take_ones_to_white_and_match_the_standard() {
+        for space in RgbSpace::ALL {
+            let white = space.xyz_from_rgb().apply([1.0; 3]);
+            assert!(white.iter().zip(space.white_xyz()).all(|(a, b)| (a - b).abs() < 1e-15), "{space:?}");
+            assert_eq!(RgbSpace::from_name(space.name()), Some(space));
+        }
+        // IEC 61966-2-1 prints four digits.
+        let printed = [[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]];
+        for (row, printed) in RgbSpace::Srgb.xyz_from_rgb().0.iter().zip(printed) {
+            assert!(row.iter().zip(printed).all(|(a, b)| (a - b).abs() < 6e-5));
+        }
+        assert_eq!(RgbSpace::from_name("Rec.709"), Some(RgbSpace::Srgb));
+        assert_eq!(RgbSpace::from_name("adobe"), None);
+    }
+
+    #[test]
+    fn palette_agrees() {
+        for rgb in [[0.2, 0.5, 0.8], [1.0, 0.0, 0.0], [0.01, 0.02, 0.9]] {
+            let [r, g, b] = rgb;
+            let theirs: palette::Xyz<palette::white_point::D65, f64> =
+                palette::LinSrgb::new(r, g, b).into_color_unclamped();
+            let ours = RgbSpace::Srgb.xyz_from_rgb().apply(rgb);
+            // Its white is rounded elsewhere.
+            for (a, b) in ours.iter().zip([theirs.x, theirs.y, theirs.z]) {
+                assert!((a - b).abs() < 3e-4, "{ours:?} {theirs:?}");
+            }
+            let encoded: palette::Srgb<f64> = palette::Srgb::from_linear(palette::LinSrgb::new(r, g, b));
+            assert!((encode_srgb(r) - encoded.red).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn encoding_round_trips() {
+        for i in -40..=60 {
+            let linear = f64::from(i) / 40.0;
+            assert!((decode_srgb(encode_srgb(linear)) - linear).abs() < 3e-7 + 1e-12);
+        }
+        assert_eq!(hex_from_srgb([1.5, 0.0, -1.0]), "#ff0000");
+        let gold = srgb_from_hex("#FFD700").unwrap();
+        assert_eq!(hex_from_srgb(gold), "#ffd700");
+        assert_eq!((srgb_from_hex("#ffd70"), srgb_from_hex("ggggg0"), srgb_from_hex("é1234")), (None, None, None));
+    }
+}
