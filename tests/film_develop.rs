@@ -10,15 +10,11 @@ fn film_of(samples: &[[f32; 3]]) -> Film {
     film
 }
 
-fn apply(m: [[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
-    m.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
-}
-
 #[test]
 fn white_at_two_to_the_ev_is_display_white() {
     for ev in [-3.0, 0.0, 7.25, 13.0] {
         let develop = Develop { exposure: Exposure::Ev(ev), white: ILLUMINANT_A, ..Develop::default() };
-        let rgb = apply(develop.matrix(ev).unwrap(), ILLUMINANT_A.map(|c| c * libm::exp2(ev)));
+        let rgb = develop.matrix(ev).unwrap().apply(ILLUMINANT_A.map(|c| c * libm::exp2(ev)));
         assert!(rgb.iter().all(|c| (c - 1.0).abs() < 1e-12), "{rgb:?}");
         let film = film_of(&[ILLUMINANT_A.map(|c| (c * libm::exp2(ev)) as f32)]);
         let rgb = film.develop(&develop).unwrap().rgb[0];
@@ -30,7 +26,7 @@ fn white_at_two_to_the_ev_is_display_white() {
 fn the_scale_of_the_given_white_does_not_matter() {
     let develop = |scale: f64| Develop { white: ILLUMINANT_A.map(|c| c * scale), ..Develop::default() };
     let (one, hundred) = (develop(1.0).matrix(0.0).unwrap(), develop(100.0).matrix(0.0).unwrap());
-    for (a, b) in one.iter().flatten().zip(hundred.iter().flatten()) {
+    for (a, b) in one.0.iter().flatten().zip(hundred.0.iter().flatten()) {
         assert!((a - b).abs() < 1e-14);
     }
 }

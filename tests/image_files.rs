@@ -1,12 +1,13 @@
 //! Files: read back equal, the same bytes twice, whole or not at all.
 
 use std::fs;
-use std::io::Cursor;
+use std::io::{Cursor, Write};
 use std::path::Path;
 
 use exr::prelude::{ReadChannels, ReadLayers};
 use spectrel::film::{Develop, Developed, Exposure, Film, Window};
 use spectrel::image::{self, Bits, ExrSpace, Format, ImageError, Metadata, Options};
+use spectrel::spectrum::RgbSpace;
 
 /// A crop of 5 × 4 pixels at (3, 2) of 16 × 9, with colours inside and outside the display.
 fn picture() -> Developed {
@@ -65,6 +66,29 @@ fn png_says_srgb_and_carries_the_metadata() {
     let seed = info.uncompressed_latin1_text.iter().find(|t| t.keyword == "spectrel:seed").unwrap();
     assert_eq!(seed.text, "7");
     assert_eq!(info.utf8_text[0].get_text().unwrap(), "größer als 1 µm");
+}
+
+#[test]
+fn other_spaces_say_what_they_are() {
+    let has = |bytes: &[u8], chunk: &[u8]| bytes.windows(4).any(|w| w == chunk);
+    for (space, cicp) in [
+        (RgbSpace::DisplayP3, Some(12)),
+        (RgbSpace::Rec2020, Some(9)),
+        (RgbSpace::AcesCg, None),
+        (RgbSpace::Srgb, None),
+    ] {
+        let film = Film::full(1, 1).unwrap();
+        let developed = film.develop(&Develop { space, ..Develop::default() }).unwrap();
+        let bytes = png_bytes(&developed, Bits::Eight);
+        assert_eq!(has(&bytes, b"sRGB"), space == RgbSpace::Srgb);
+        assert!(has(&bytes, b"cHRM") && has(&bytes, b"gAMA"));
+        let at = bytes.windows(4).position(|w| w == b"cICP");
+        assert_eq!(at.map(|at| bytes[at + 4]), cicp);
+        read_png(&bytes);
+        let exr = image::encode(Format::Exr, &developed, &Options::default(), &Metadata::new()).unwrap().bytes;
+        let white = read_exr(&exr).0.shared_attributes.chromaticities.unwrap().white;
+        assert_eq!((white.0, white.1), (space.white_xy()[0] as f32, space.white_xy()[1] as f32));
+    }
 }
 
 #[test]
@@ -200,6 +224,34 @@ fn missing_folders_and_folders_in_the_way_are_errors() {
     );
     assert!(matches!(error, Err(ImageError::Metadata { .. })));
     assert_eq!(entries(folder.path()), ["folder.png"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn refusals_of_the_system_are_errors_with_the_path() {
+    let folder = tempfile::tempdir().unwrap();
+    // Nobody creates files in /proc, and no name has 300 bytes.
+    for path in [Path::new("/proc/picture.png"), &folder.path().join(format!("{}.png", "n".repeat(300)))] {
+        for error in [write(path).unwrap_err(), image::check_writable(path).unwrap_err()] {
+            assert!(matches!(error, ImageError::Write { .. }));
+            assert!(error.to_string().contains(&path.display().to_string()), "{error}");
+        }
+    }
+    assert!(entries(folder.path()).is_empty());
+}
+
+#[test]
+fn content_that_fails_half_way_leaves_the_old_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("film.part");
+    fs::write(&path, "old").unwrap();
+    let error = image::atomic::write_with(&path, |file| {
+        file.write_all(&[7; 100_000])?;
+        Err(std::io::Error::other("disk full"))
+    });
+    assert!(error.unwrap_err().to_string().contains("disk full"));
+    assert_eq!(fs::read(&path).unwrap(), b"old");
+    assert_eq!(entries(folder.path()), ["film.part"]);
 }
 
 #[cfg(unix)]
