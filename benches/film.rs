@@ -1,7 +1,9 @@
-//! What exact sums cost: `cargo bench --bench film`. Each benchmark adds 1024 samples to one pixel.
+//! What exact sums cost (1024 samples added to one pixel) and what development and writing take (one megapixel):
+//! `cargo bench --bench film`.
 
 use divan::{Bencher, black_box};
-use spectrel::film::Pixel;
+use spectrel::film::{Develop, Developed, Film, Pixel};
+use spectrel::image::{self, Bits, Format, Metadata, Options};
 
 fn main() {
     divan::main();
@@ -72,4 +74,53 @@ fn sums_in_f64(bencher: Bencher) {
         }
         pixel
     });
+}
+
+/// One megapixel of smooth shading with the noise of a short render.
+fn film() -> Film {
+    let mut film = Film::full(1024, 1024).unwrap_or_else(|e| panic!("{e}"));
+    let noise = samples();
+    for (i, pixel) in film.pixels_mut().iter_mut().enumerate() {
+        let shade = ((i % 1024) * (i / 1024)) as f32 / 1048.0;
+        let grain = noise[i.wrapping_mul(2_654_435_761) % SAMPLES][1].fract() * 0.1 + 0.95;
+        pixel.add([shade * grain, shade * grain * 1.02, shade * 0.8]);
+    }
+    film
+}
+
+fn developed() -> Developed {
+    film().develop(&Develop::default()).unwrap_or_else(|e| panic!("{e}"))
+}
+
+#[divan::bench(sample_count = 10)]
+fn develop(bencher: Bencher) {
+    let film = film();
+    bencher.bench_local(|| film.develop(&Develop::default()));
+}
+
+fn bench_encode(bencher: Bencher, format: Format, options: Options) {
+    let (developed, metadata) = (developed(), Metadata::new());
+    let size = image::encode(format, &developed, &options, &metadata).map_or(0, |e| e.bytes.len());
+    eprintln!("\n{format:?} {options:?}: {size} bytes");
+    bencher.bench_local(|| image::encode(format, &developed, &options, &metadata));
+}
+
+#[divan::bench(sample_count = 10)]
+fn exr_float(bencher: Bencher) {
+    bench_encode(bencher, Format::Exr, Options::default());
+}
+
+#[divan::bench(sample_count = 10)]
+fn exr_half(bencher: Bencher) {
+    bench_encode(bencher, Format::Exr, Options { half: true, ..Options::default() });
+}
+
+#[divan::bench(sample_count = 10)]
+fn png_8_bits(bencher: Bencher) {
+    bench_encode(bencher, Format::Png, Options::default());
+}
+
+#[divan::bench(sample_count = 10)]
+fn png_16_bits(bencher: Bencher) {
+    bench_encode(bencher, Format::Png, Options { bits: Bits::Sixteen, ..Options::default() });
 }

@@ -3,15 +3,15 @@
 //! Nothing is clipped here: RGB may be above 1 or negative, and the report counts where. Files that cannot hold such
 //! colours map them when they are written ([`Developed::display`]).
 
-use super::interim::{RgbSpace, apply, bradford, multiply};
 use super::{Exposure, Film, FilmError, Gamut, GamutReport, Window};
+use crate::spectrum::{Matrix3, RgbSpace, Xyz, bradford};
 
 /// How to develop a film.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Develop {
     pub exposure: Exposure,
     /// XYZ of the colour that becomes display white; only its chromaticity counts (Y is taken as 1).
-    pub white: [f64; 3],
+    pub white: Xyz,
     pub space: RgbSpace,
     pub gamut: Gamut,
 }
@@ -19,7 +19,7 @@ pub struct Develop {
 impl Default for Develop {
     /// Automatic exposure, no white balance, sRGB, hue kept.
     fn default() -> Self {
-        let space = RgbSpace::SRGB;
+        let space = RgbSpace::Srgb;
         Self { exposure: Exposure::Auto, white: space.white_xyz(), space, gamut: Gamut::PreserveChroma }
     }
 }
@@ -38,7 +38,7 @@ pub struct Developed {
     /// RGB (1, 1, 1) is 2^EV cd/m².
     pub ev: f64,
     /// XYZ of the colour that became display white, Y = 1.
-    pub white: [f64; 3],
+    pub white: Xyz,
     pub space: RgbSpace,
     pub gamut: Gamut,
     pub report: GamutReport,
@@ -55,20 +55,19 @@ impl Developed {
 
     /// Linear RGB mapped into [0, 1] for files that hold no more.
     pub fn display(&self) -> impl Iterator<Item = [f64; 3]> {
-        let luminance = self.space.to_xyz()[1];
+        let luminance = self.space.xyz_from_rgb().0[1];
         self.rgb.iter().map(move |rgb| self.gamut.map(rgb.map(f64::from), luminance))
     }
 }
 
 impl Develop {
     /// The matrix from XYZ in cd/m² to linear RGB at exposure `ev`.
-    pub fn matrix(&self, ev: f64) -> Result<[[f64; 3]; 3], FilmError> {
+    pub fn matrix(&self, ev: f64) -> Result<Matrix3, FilmError> {
         let adapt = bradford(self.normalised_white()?, self.space.white_xyz());
-        let scale = libm::exp2(-ev);
-        Ok(multiply(self.space.from_xyz(), adapt).map(|row| row.map(|c| c * scale)))
+        Ok(self.space.rgb_from_xyz().after(&adapt).after(&Matrix3::diagonal([libm::exp2(-ev); 3])))
     }
 
-    fn normalised_white(&self) -> Result<[f64; 3], FilmError> {
+    fn normalised_white(&self) -> Result<Xyz, FilmError> {
         let white = self.white;
         let valid = white.iter().all(|c| c.is_finite() && *c >= 0.0) && white[1] > 0.0;
         if valid { Ok(white.map(|c| c / white[1])) } else { Err(FilmError::White { white }) }
@@ -81,7 +80,7 @@ impl Film {
         let ev = develop.exposure.ev(self.pixels().iter().map(|p| p.mean()[1]))?;
         let matrix = develop.matrix(ev)?;
         let means = || self.pixels().iter().map(|p| p.mean());
-        let rgb: Vec<_> = means().map(|xyz| to_f32(apply(matrix, xyz))).collect();
+        let rgb: Vec<_> = means().map(|xyz| to_f32(matrix.apply(xyz))).collect();
         Ok(Developed {
             image: self.image(),
             window: self.window(),
@@ -96,8 +95,7 @@ impl Film {
     }
 
     fn gamut_report(&self, rgb: &[[f32; 3]], develop: &Develop) -> GamutReport {
-        let mut report =
-            GamutReport { gamut: develop.gamut, space: develop.space.name.to_string(), ..GamutReport::default() };
+        let mut report = GamutReport { gamut: develop.gamut, space: develop.space, ..GamutReport::default() };
         for (pixel, rgb) in self.pixels().iter().zip(rgb) {
             report.count(*rgb);
             report.rejected += u64::from(pixel.rejected());

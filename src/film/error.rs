@@ -18,6 +18,10 @@ pub enum FilmError {
         image[0], image[1], other_image[0], other_image[1]
     )]
     Mismatch { window: Window, image: [u32; 2], other_window: Window, other_image: [u32; 2] },
+    #[error("this is no film file")]
+    NotAFilm,
+    #[error("the film file is damaged: {reason}")]
+    Damaged { reason: String },
     #[error("exposure EV {ev} is out of range: use −{limit} to {limit} (display white is 2^EV cd/m²)")]
     Exposure { ev: f64, limit: f64 },
     #[error("XYZ ({}, {}, {}) is no white: it must be finite, not negative, and Y above 0", white[0], white[1], white[2])]

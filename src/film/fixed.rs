@@ -14,7 +14,7 @@
 //! overflow: it saturates at u128::MAX and stays there. Saturating sums of non-negative numbers do not depend on order,
 //! a flag set by a signed sum on its way would.
 //!
-//! Measured: see `benches/film.rs` and the table in [`super::pixel`].
+//! What it costs is written at [`Pixel`](super::Pixel).
 
 /// Sums count units of 2⁻⁶⁴ cd/m².
 pub const SUM_FRACTION_BITS: u32 = 64;

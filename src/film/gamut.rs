@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::spectrum::RgbSpace;
+
 /// How linear RGB gets into [0, 1] for files that cannot hold more.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Gamut {
@@ -29,7 +31,15 @@ fn towards_grey(rgb: [f64; 3], luminance: [f64; 3]) -> [f64; 3] {
         return [grey.clamp(0.0, 1.0); 3];
     }
     // The largest part of each channel's distance from grey that stays inside; the smallest serves all three.
-    let room = rgb.map(|c| if c > 1.0 { (1.0 - grey) / (c - grey) } else if c < 0.0 { grey / (grey - c) } else { 1.0 });
+    let room = rgb.map(|c| {
+        if c > 1.0 {
+            (1.0 - grey) / (c - grey)
+        } else if c < 0.0 {
+            grey / (grey - c)
+        } else {
+            1.0
+        }
+    });
     let part = room[0].min(room[1]).min(room[2]);
     if part == 1.0 { rgb } else { rgb.map(|c| (grey + part * (c - grey)).clamp(0.0, 1.0)) }
 }
@@ -51,8 +61,8 @@ pub struct GamutReport {
     pub unsampled: u64,
     /// How the PNG brings the first two kinds inside.
     pub gamut: Gamut,
-    /// Name of the RGB space.
-    pub space: String,
+    /// The space whose gamut is meant.
+    pub space: RgbSpace,
 }
 
 /// Rounding of f32 pixels must not count as out of gamut.
@@ -96,7 +106,7 @@ impl GamutReport {
 
 impl fmt::Display for GamutReport {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let (above, outside, total, space) = (self.above_one, self.negative, self.pixels, &self.space);
+        let (above, outside, total, space) = (self.above_one, self.negative, self.pixels, title(self.space));
         if self.fits() {
             return write!(f, "all {total} pixels within display white and the {space} gamut");
         }
@@ -105,8 +115,20 @@ impl fmt::Display for GamutReport {
             Gamut::PreserveChroma => "desaturated at equal luminance",
         };
         let share = percent(above, total);
-        write!(f, "{above} of {total} pixels{share} brighter than display white, {outside} outside the {space} gamut; ")?;
+        write!(
+            f,
+            "{above} of {total} pixels{share} brighter than display white, {outside} outside the {space} gamut; "
+        )?;
         write!(f, "{fate} in the PNG, kept in the EXR")
+    }
+}
+
+fn title(space: RgbSpace) -> &'static str {
+    match space {
+        RgbSpace::Srgb => "sRGB",
+        RgbSpace::DisplayP3 => "Display P3",
+        RgbSpace::Rec2020 => "Rec. 2020",
+        RgbSpace::AcesCg => "ACEScg",
     }
 }
 
@@ -155,7 +177,7 @@ mod tests {
 
     #[test]
     fn the_report_reads_well() {
-        let mut report = GamutReport { pixels: 614_400, space: "sRGB".into(), gamut: Gamut::Clip, ..Default::default() };
+        let mut report = GamutReport { pixels: 614_400, gamut: Gamut::Clip, ..Default::default() };
         assert_eq!(report.to_string(), "all 614400 pixels within display white and the sRGB gamut");
         (report.above_one, report.negative) = (312, 41);
         assert_eq!(

@@ -7,6 +7,7 @@
 //! - [`window`]: which part of the full image a film covers, and its tiles
 //! - [`fixed`]: one number to fixed point
 //! - [`pixel`]: the sums of one pixel
+//! - [`store`]: films as files, for checkpoints and for the parts of a job
 //! - [`exposure`]: which luminance becomes display white
 //! - [`develop`]: exposure → white balance → RGB
 //! - [`gamut`]: what a display cannot show, counted and, for PNG, moved inside
@@ -16,15 +17,16 @@ pub mod error;
 pub mod exposure;
 pub mod fixed;
 pub mod gamut;
-pub mod interim;
+pub mod hash;
 pub mod pixel;
+pub mod store;
 pub mod window;
 
 pub use develop::{Develop, Developed};
 pub use error::FilmError;
 pub use exposure::Exposure;
 pub use gamut::{Gamut, GamutReport};
-pub use interim::RgbSpace;
+pub use hash::{StableHash, fnv1a_64};
 pub use pixel::Pixel;
 pub use window::Window;
 
@@ -41,12 +43,7 @@ impl Film {
     ///
     /// Fails if the window is empty, not inside the image, or beyond what the machine can allocate.
     pub fn new(image: [u32; 2], window: Window) -> Result<Self, FilmError> {
-        if window.is_empty() {
-            return Err(FilmError::Empty);
-        }
-        if !Window::full(image[0], image[1]).contains_window(window) {
-            return Err(FilmError::Outside { window, image });
-        }
+        window.check(image)?;
         let bytes = Self::memory_bytes(window.width, window.height);
         let count = usize::try_from(window.pixel_count()).map_err(|_| FilmError::TooLarge { bytes })?;
         let mut pixels = Vec::new();

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::FilmError;
+
 /// A rectangle of pixels of an image; (0, 0) is the top left pixel of the full image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Window {
@@ -15,6 +17,17 @@ impl Window {
     /// The window that covers an image of `width` × `height` pixels.
     pub fn full(width: u32, height: u32) -> Self {
         Self { x0: 0, y0: 0, width, height }
+    }
+
+    /// Whether this is a window of an image of `image` = [width, height] pixels, and has pixels.
+    pub fn check(self, image: [u32; 2]) -> Result<(), FilmError> {
+        if self.is_empty() {
+            Err(FilmError::Empty)
+        } else if !Window::full(image[0], image[1]).contains_window(self) {
+            Err(FilmError::Outside { window: self, image })
+        } else {
+            Ok(())
+        }
     }
 
     pub fn is_empty(self) -> bool {
@@ -48,12 +61,7 @@ impl Window {
     }
 
     fn tile(self, x: u32, y: u32, side: u32) -> Window {
-        Window {
-            x0: self.x0 + x,
-            y0: self.y0 + y,
-            width: side.min(self.width - x),
-            height: side.min(self.height - y),
-        }
+        Window { x0: self.x0 + x, y0: self.y0 + y, width: side.min(self.width - x), height: side.min(self.height - y) }
     }
 
     // Edges one past the last pixel, wide enough for any four numbers.

@@ -1,7 +1,7 @@
 //! Files that appear whole or not at all: written beside the target, then renamed over it.
 
 use std::fs;
-use std::io::Write;
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
@@ -10,9 +10,16 @@ use super::ImageError;
 
 /// Replaces `path` by `bytes`. On an error the old file, if any, is untouched and nothing is left behind.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), ImageError> {
+    write_with(path, |file| file.write_all(bytes))
+}
+
+/// [`write`] for content that comes bit by bit, such as a film.
+pub fn write_with(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), ImageError> {
     let failed = |error| ImageError::Write { path: path.to_path_buf(), error };
-    let (mut file, target) = open(path)?;
-    file.write_all(bytes).map_err(failed)?;
+    let (file, target) = open(path)?;
+    let mut buffered = BufWriter::new(file.as_file());
+    content(&mut buffered).and_then(|()| buffered.flush()).map_err(failed)?;
+    drop(buffered);
     // Before the rename, or a crash could leave the name with an empty file.
     file.as_file().sync_all().map_err(failed)?;
     file.persist(target).map_err(|e| failed(e.error))?;
@@ -27,7 +34,12 @@ pub fn check(path: &Path) -> Result<(), ImageError> {
 
 /// A temporary file beside the target, and the target with symbolic links followed.
 fn open(path: &Path) -> Result<(NamedTempFile, PathBuf), ImageError> {
-    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
+    let target = match fs::canonicalize(path) {
+        // Not there yet, or a folder is missing: that is told below.
+        Err(error) if error.kind() == io::ErrorKind::NotFound => path.to_path_buf(),
+        Err(error) => return Err(ImageError::Write { path: path.to_path_buf(), error }),
+        Ok(target) => target,
+    };
     if target.is_dir() {
         return Err(ImageError::IsFolder { path: path.to_path_buf() });
     }

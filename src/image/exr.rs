@@ -22,7 +22,8 @@ use exr::prelude::{
 
 use super::exr_header::sort_attributes;
 use super::{Encoded, ExrSpace, ImageError, Metadata, Options};
-use crate::film::{Developed, RgbSpace};
+use crate::film::Developed;
+use crate::spectrum::{RgbSpace, Xyz};
 
 /// Lossless ZIP of 16 lines; lines in order, whatever thread compressed them first.
 const ENCODING: Encoding =
@@ -63,7 +64,7 @@ impl Attributes {
         let (window, [width, height]) = (developed.window, developed.image);
         let int = |n: u32| i32::try_from(n).map_err(|_| failed("the image has more than 2³¹ pixels on a side"));
         let (xy, luminance) = match space {
-            ExrSpace::Rgb => (rgb_chromaticities(&developed.space), libm::exp2(developed.ev) as f32),
+            ExrSpace::Rgb => (rgb_chromaticities(developed.space), libm::exp2(developed.ev) as f32),
             ExrSpace::Xyz => (xyz_chromaticities(), 1.0),
         };
         // RGB is balanced already; XYZ is neutral where the development would have made it so.
@@ -112,9 +113,10 @@ fn text(value: &str) -> Text {
     Text::from_slice_unchecked(value.as_bytes())
 }
 
-fn rgb_chromaticities(space: &RgbSpace) -> Chromaticities {
+fn rgb_chromaticities(space: RgbSpace) -> Chromaticities {
     let xy = |[x, y]: [f64; 2]| Vec2(x as f32, y as f32);
-    Chromaticities { red: xy(space.red), green: xy(space.green), blue: xy(space.blue), white: xy(space.white) }
+    let [red, green, blue] = space.primaries_xy().map(xy);
+    Chromaticities { red, green, blue, white: xy(space.white_xy()) }
 }
 
 fn xyz_chromaticities() -> Chromaticities {
@@ -122,7 +124,7 @@ fn xyz_chromaticities() -> Chromaticities {
     Chromaticities { red: Vec2(1.0, 0.0), green: Vec2(0.0, 1.0), blue: Vec2(0.0, 0.0), white: Vec2(third, third) }
 }
 
-fn chromaticity([x, y, z]: [f64; 3]) -> Vec2<f32> {
+fn chromaticity([x, y, z]: Xyz) -> Vec2<f32> {
     let sum = x + y + z;
     Vec2((x / sum) as f32, (y / sum) as f32)
 }

@@ -68,22 +68,9 @@ fn problem(key: &str, value: &str, repeated: bool) -> Option<&'static str> {
     }
 }
 
-/// FNV-1a with 64 bits (Fowler, Noll and Vo): a stable fingerprint of a scene's content. It tells accidental
-/// differences; it is no protection against someone who wants two scenes to look the same.
-pub fn fnv1a_64(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn fnv_matches_its_published_vectors() {
-        assert_eq!(fnv1a_64(b""), 0xcbf2_9ce4_8422_2325);
-        assert_eq!(fnv1a_64(b"a"), 0xaf63_dc4c_8601_ec8c);
-        assert_eq!(fnv1a_64(b"foobar"), 0x8594_4171_f739_67e8);
-    }
 
     #[test]
     fn bad_entries_are_errors() {

@@ -1,16 +1,18 @@
-//! PNG: what a display can show, 8 or 16 bits a channel, sRGB.
+//! PNG: what a display can show, 8 or 16 bits a channel, encoded by the sRGB curve.
 //!
 //! Colours outside are mapped as the development says ([`Developed::display`]); the values are rounded to the nearest
 //! code. No dither: path-traced pixels carry noise of about a code or more, which does the same service, and plain
 //! rounding lets a test (or a colour checker) read back the value it expects. Where that is not enough, 16 bits are.
 //!
-//! Metadata are tEXt chunks, iTXt where they are not ASCII. The file says sRGB, and gAMA and cHRM for old readers.
+//! Metadata are tEXt chunks, iTXt where they are not ASCII. The colour space is said in sRGB or cICP,
+//! and in gAMA and cHRM for readers that know neither.
 
+use png::chunk::ChunkType;
 use png::{BitDepth, ColorType, Encoder, ScaledFloat, SourceChromaticities, SrgbRenderingIntent};
 
 use super::{Bits, Encoded, ImageError, Metadata};
 use crate::film::Developed;
-use crate::film::interim::srgb_encode;
+use crate::spectrum::{RgbSpace, encode_srgb};
 
 /// The PNG file of a picture.
 pub fn encode(developed: &Developed, bits: Bits, metadata: &Metadata) -> Result<Encoded, ImageError> {
@@ -28,7 +30,7 @@ fn write(
 ) -> Result<(), png::EncodingError> {
     let mut encoder = Encoder::new(bytes, developed.width(), developed.height());
     encoder.set_color(ColorType::Rgb);
-    set_srgb(&mut encoder);
+    set_space(&mut encoder, developed.space);
     for (key, value) in metadata.named() {
         add_text(&mut encoder, key, value)?;
     }
@@ -43,26 +45,37 @@ fn write(
         }
     };
     let mut writer = encoder.write_header()?;
+    if let Some(primaries) = cicp_primaries(developed.space) {
+        // The sRGB curve (13), no matrix, full range.
+        writer.write_chunk(ChunkType(*b"cICP"), &[primaries, 13, 0, 1])?;
+    }
     writer.write_image_data(&samples)?;
     writer.finish()
 }
 
 /// Encoded channels in order, as whole numbers up to `max`.
 fn codes(developed: &Developed, max: f64) -> impl Iterator<Item = f64> {
-    developed.display().flatten().map(move |linear| libm::round(srgb_encode(linear) * max))
+    developed.display().flatten().map(move |linear| libm::round(encode_srgb(linear) * max))
 }
 
-/// The chunk sRGB, and beside it the gAMA and cHRM that the PNG specification (11.3.2.5) recommends with it.
-fn set_srgb<W: std::io::Write>(encoder: &mut Encoder<W>) {
-    encoder.set_source_srgb(SrgbRenderingIntent::RelativeColorimetric);
+/// The chunk sRGB where it is true, and gAMA and cHRM, which the PNG specification (11.3.2.5) recommends with it.
+fn set_space<W: std::io::Write>(encoder: &mut Encoder<W>, space: RgbSpace) {
+    if space == RgbSpace::Srgb {
+        encoder.set_source_srgb(SrgbRenderingIntent::RelativeColorimetric);
+    }
     encoder.set_source_gamma(ScaledFloat::from_scaled(45455));
-    let xy = |x, y| (ScaledFloat::from_scaled(x), ScaledFloat::from_scaled(y));
-    encoder.set_source_chromaticities(SourceChromaticities {
-        white: xy(31270, 32900),
-        red: xy(64000, 33000),
-        green: xy(30000, 60000),
-        blue: xy(15000, 6000),
-    });
+    let xy = |[x, y]: [f64; 2]| (ScaledFloat::new(x as f32), ScaledFloat::new(y as f32));
+    let [red, green, blue] = space.primaries_xy().map(xy);
+    encoder.set_source_chromaticities(SourceChromaticities { white: xy(space.white_xy()), red, green, blue });
+}
+
+/// ColourPrimaries of ITU-T H.273 for spaces that the chunk sRGB does not name. AP1 has none; it leaves cHRM.
+fn cicp_primaries(space: RgbSpace) -> Option<u8> {
+    match space {
+        RgbSpace::DisplayP3 => Some(12),
+        RgbSpace::Rec2020 => Some(9),
+        RgbSpace::Srgb | RgbSpace::AcesCg => None,
+    }
 }
 
 fn add_text<W: std::io::Write>(encoder: &mut Encoder<W>, key: String, value: &str) -> Result<(), png::EncodingError> {
