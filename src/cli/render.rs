@@ -9,6 +9,7 @@ use crate::image::{self, Bits, ExrSpace, Metadata, Options};
 use crate::render::{Kernel, render};
 use crate::scene::describe::{ExposureValue, GamutName};
 use crate::scene::{Needs, Overrides, Scene, SceneError, resolve};
+use crate::spectrum::RgbSpace;
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -203,11 +204,11 @@ fn development(scene: &Scene) -> Develop {
             ExposureValue::Ev(ev) => Exposure::Ev(ev),
         },
         white: scene.picture.white,
+        space: RgbSpace::Srgb,
         gamut: match scene.picture.gamut {
             GamutName::Clip => Gamut::Clip,
             GamutName::PreserveChroma => Gamut::PreserveChroma,
         },
-        ..Develop::default()
     }
 }
 
