@@ -4,7 +4,7 @@ mod common;
 
 use common::{film, library, scene};
 use spectrel::film::{Film, Window};
-use spectrel::image::metadata::fnv1a_64;
+use spectrel::film::fnv1a_64;
 use spectrel::render::{Kernel, render};
 use spectrel::scene::{Needs, Overrides};
 use std::sync::atomic::AtomicBool;
