@@ -128,7 +128,10 @@ fn directions_are_distributed_as_the_density_says() {
         let (axis, cos_min) = cone(&world, reference);
         let (x, y) = frame(axis);
         let bin = |d: DVec3| {
-            let a = ((1.0 - d.dot(axis)) / (1.0 - cos_min)).clamp(0.0, 0.999_999);
+            // 1 − cos from the sine: single-precision directions are not unit to the accuracy that a narrow cone needs.
+            let (sin2, cos) = (d.dot(x).powi(2) + d.dot(y).powi(2), d.dot(axis));
+            let down = if cos > 0.0 { sin2 / (1.0 + (1.0 - sin2).max(0.0).sqrt()) } else { 1.0 - cos };
+            let a = (down / (1.0 - cos_min)).clamp(0.0, 0.999_999);
             let b = (d.dot(y).atan2(d.dot(x)) / std::f64::consts::TAU).rem_euclid(1.0).min(0.999_999);
             (a * BINS[0] as f64) as usize * BINS[1] + (b * BINS[1] as f64) as usize
         };
