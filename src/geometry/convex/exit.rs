@@ -56,7 +56,7 @@ pub struct Exits<const N: usize> {
 /// Planes side by side: `BLOCK` of them make a block.
 pub(super) const BLOCK: usize = 8;
 
-/// Half-spaces n·(p − centre) ≤ offset. A block that is not full ends with n = 0, offset = 1: never an exit, never in front.
+/// Half-spaces n·(p − centre) ≤ offset. A block that is not full ends with n = 0, offset = ∞: never an exit, never in front.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Block {
     pub x: [f32; BLOCK],
@@ -66,7 +66,7 @@ pub(super) struct Block {
 }
 
 impl Block {
-    pub const EMPTY: Self = Self { x: [0.0; BLOCK], y: [0.0; BLOCK], z: [0.0; BLOCK], offset: [1.0; BLOCK] };
+    pub const EMPTY: Self = Self { x: [0.0; BLOCK], y: [0.0; BLOCK], z: [0.0; BLOCK], offset: [f32::INFINITY; BLOCK] };
 }
 
 impl Convex {

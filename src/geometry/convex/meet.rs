@@ -49,7 +49,8 @@ impl Convex {
                 let later = entering & (t > enter[k]);
                 enter[k] = if later { t } else { enter[k] };
                 enter_block[k] = if later { number as u32 } else { enter_block[k] };
-                leave[k] = if !entering & (t < leave[k]) { t } else { leave[k] };
+                // (Not `!entering`: room / −0 is −∞.)
+                leave[k] = if (rate > 0.0) & (t < leave[k]) { t } else { leave[k] };
             }
         }
         if !outside.contains(&true) {

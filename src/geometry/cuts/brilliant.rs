@@ -140,6 +140,11 @@ impl Brilliant {
         let lower_radius = (1.0 - self.lower_half_length) * radius;
         let lower_z = girdle_bottom - pavilion_tan * (radius - lower_radius * cos_16th);
 
+        if self.culet > 0.0 && lower_z <= 0.0 {
+            let wants = "it swallows the tips of the lower halves; make it smaller or the lower halves shorter".into();
+            return Err(GeometryError::Proportion { name: "the culet", value: self.culet, wants });
+        }
+
         let mut planes = vec![Plane::new(DVec3::Z, top)];
         let eighth = |k: usize| k as f64 * EIGHTH;
         planes.extend((0..8).map(|k| {
