@@ -88,17 +88,20 @@ struct Terms {
 impl Terms {
     #[inline(always)]
     fn new(n1: f32, n2: f32, k2: f32, cos: f32) -> Self {
-        let d = (n2 - n1) * (n2 + n1) - k2 * k2;
+        let k_squared = k2 * k2;
+        let d = (n2 - n1) * (n2 + n1) - k_squared;
         let half_im = n2 * k2;
         let im_squared = 4.0 * (half_im * half_im);
         let normal = n1 * cos;
         let normal_squared = normal * normal;
-        let re = d + normal_squared;
+        let tangential = n1 * n1 * ((1.0 - cos) * (1.0 + cos));
+        // Re w² in two forms, of which the one that subtracts less is taken; both are formed first, so that no branch remains.
+        let (steep, grazing) = (n2 * n2 - k_squared - tangential, d + normal_squared);
+        let re = if normal_squared > tangential { steep } else { grazing };
         let q = (re * re + im_squared).sqrt();
         let g_squared = 0.5 * (q + re.abs());
         let g = g_squared.sqrt() + TINY;
         let product = normal * if re >= 0.0 { g_squared } else { half_im };
-        let tangential = n1 * n1 * ((1.0 - cos) * (1.0 + cos));
         Self {
             contrast: d * d + im_squared,
             g,
