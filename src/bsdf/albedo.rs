@@ -69,6 +69,12 @@ mod tests {
         }
     }
 
+    /// α = 1 makes D = 1/π, and ωo = z leaves ∫₀¹ z/(1 + z) dz.
+    #[test]
+    fn roughest_white_surface_in_closed_form() {
+        assert!((albedo(1.0, 1.0, |_| 1.0) - (1.0 - std::f64::consts::LN_2)).abs() < 1e-12);
+    }
+
     #[test]
     fn energy_is_never_gained() {
         for alpha in [1e-3, 0.1, 0.5, 1.0] {

@@ -43,7 +43,7 @@ fn mirror<const N: usize>(fresnel: &Fresnel<N>, wo: Vec3) -> Sample<N> {
 
 #[inline]
 pub(super) fn eval<const N: usize>(fresnel: &Fresnel<N>, alpha: f32, wo: Vec3, wi: Vec3) -> Eval<N> {
-    if alpha < MIRROR_ALPHA || wi.z <= 0.0 {
+    if alpha < MIRROR_ALPHA {
         return Eval { f_cos: Lanes::ZERO, pdf: 0.0 };
     }
     let visible = ggx::Visible::new(wo, alpha);

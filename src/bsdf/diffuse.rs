@@ -24,6 +24,6 @@ pub(super) fn sample<const N: usize>(reflectance: &Lanes<N>, u: [f32; 2]) -> Opt
 
 #[inline]
 pub(super) fn eval<const N: usize>(reflectance: &Lanes<N>, wi: Vec3) -> Eval<N> {
-    let pdf = wi.z.max(0.0) * FRAC_1_PI;
+    let pdf = wi.z * FRAC_1_PI;
     Eval { f_cos: *reflectance * pdf, pdf }
 }

@@ -56,6 +56,9 @@ impl<const N: usize> Bsdf<N> {
     /// that sample weighs zero.
     #[inline]
     pub fn sample(&self, wo: Vec3, u: [f32; 2]) -> Option<Sample<N>> {
+        if wo.z <= 0.0 {
+            return None;
+        }
         match self {
             Self::Diffuse { reflectance } => diffuse::sample(reflectance, u),
             Self::Conductor { fresnel, alpha } => conductor::sample(fresnel, *alpha, wo, u),
@@ -65,6 +68,9 @@ impl<const N: usize> Bsdf<N> {
     /// What is scattered from ωi to ωo; zero below the surface and for delta lobes.
     #[inline]
     pub fn eval(&self, wo: Vec3, wi: Vec3) -> Eval<N> {
+        if wo.z <= 0.0 || wi.z <= 0.0 {
+            return Eval { f_cos: Lanes::ZERO, pdf: 0.0 };
+        }
         match self {
             Self::Diffuse { reflectance } => diffuse::eval(reflectance, wi),
             Self::Conductor { fresnel, alpha } => conductor::eval(fresnel, *alpha, wo, wi),

@@ -70,38 +70,44 @@ pub fn reflectance_and_loss<const N: usize>(
     (reflected, lost)
 }
 
-/// The quantities of the file head for one lane.
+/// The quantities of the file head for one lane, all times g, the larger of a and b: then a g is known without a division.
 struct Terms {
     /// |d|².
     contrast: f32,
-    /// X.
+    g: f32,
+    /// g X.
     sum_s: f32,
-    /// 4 C a.
+    /// 4 C a g.
     flux: f32,
+    /// g u.
     u: f32,
+    /// g v.
     v: f32,
 }
 
 impl Terms {
     #[inline(always)]
     fn new(n1: f32, n2: f32, k2: f32, cos: f32) -> Self {
-        let d = (n2 - n1) * (n2 + n1) - k2 * k2;
+        let k_squared = k2 * k2;
+        let d = (n2 - n1) * (n2 + n1) - k_squared;
         let half_im = n2 * k2;
         let im_squared = 4.0 * (half_im * half_im);
         let normal = n1 * cos;
         let normal_squared = normal * normal;
-        let re = d + normal_squared;
-        let q = (re * re + im_squared).sqrt();
-        let larger = (0.5 * (q + re.abs())).sqrt();
-        let smaller = half_im / (larger + f32::MIN_POSITIVE);
-        let a = if re >= 0.0 { larger } else { smaller };
         let tangential = n1 * n1 * ((1.0 - cos) * (1.0 + cos));
-        let product = normal * a;
+        // Re w² in two forms, of which the one that subtracts less is taken; both are formed first, so that no branch remains.
+        let (steep, grazing) = (n2 * n2 - k_squared - tangential, d + normal_squared);
+        let re = if normal_squared > tangential { steep } else { grazing };
+        let q = (re * re + im_squared).sqrt();
+        let g_squared = 0.5 * (q + re.abs());
+        let g = g_squared.sqrt() + TINY;
+        let product = normal * if re >= 0.0 { g_squared } else { half_im };
         Self {
             contrast: d * d + im_squared,
-            sum_s: normal_squared + q + 2.0 * product,
+            g,
+            sum_s: (normal_squared + q) * g + 2.0 * product,
             flux: 4.0 * product,
-            u: normal_squared * q + tangential * tangential,
+            u: (normal_squared * q + tangential * tangential) * g,
             v: 2.0 * tangential * product,
         }
     }
@@ -109,7 +115,7 @@ impl Terms {
     #[inline(always)]
     fn reflected(&self) -> f32 {
         let both = self.sum_s * self.sum_s * (self.u + self.v) + f32::MIN_POSITIVE;
-        let reflected = self.contrast * self.u / both;
+        let reflected = self.contrast * self.g * self.g * self.u / both;
         if reflected < 1.0 { reflected } else { 1.0 }
     }
 
@@ -120,6 +126,9 @@ impl Terms {
         if self.contrast > 0.0 { lost } else { 1.0 }
     }
 }
+
+/// Keeps g from 0 at the critical angle itself, where g cancels; a difference of f32 indices leaves g above 1e-4.
+const TINY: f32 = 1e-10;
 
 #[cfg(test)]
 mod tests {

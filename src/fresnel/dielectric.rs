@@ -2,7 +2,7 @@
 //! because after a dispersive refraction each wavelength has its own direction.
 //!
 //! ```text
-//! d = (n2 − n1)(n2 + n1)   C = n1 c   a = n2 cos θ_t = √(d + C²)   S = n1²s²
+//! d = (n2 − n1)(n2 + n1)   C = n1 c   a = n2 cos θ_t = √(d + C²) = √(n2² − S)   S = n1²s²
 //! R_s = d²/(C + a)⁴        R_p = R_s ((C a − S)/(C a + S))²        R = (R_s + R_p)/2 = R_s ((C a)² + S²)/(C a + S)²
 //! ```
 //!
@@ -38,24 +38,33 @@ pub fn fresnel<const N: usize>(n1: &Lanes<N>, n2: &Lanes<N>, cos_theta_i: &Lanes
 pub fn cos_theta_t<const N: usize>(n1: &Lanes<N>, n2: &Lanes<N>, cos_theta_i: &Lanes<N>) -> Lanes<N> {
     let mut cos_theta_t = Lanes::ZERO;
     for lane in 0..N {
-        cos_theta_t[lane] = inside(n1[lane], n2[lane], n1[lane] * cos_theta_i[lane]).max(0.0).sqrt() / n2[lane];
+        let (n1, n2, cos) = (n1[lane], n2[lane], cos_theta_i[lane]);
+        cos_theta_t[lane] = inside(n1, n2, n1 * cos, tangential(n1, cos)).max(0.0).sqrt() / n2;
     }
     cos_theta_t
 }
 
-/// a² = n2² cos²θ_t, negative under total reflection.
+/// S = n1² sin²θ_i.
 #[inline(always)]
-fn inside(n1: f32, n2: f32, normal: f32) -> f32 {
-    (n2 - n1) * (n2 + n1) + normal * normal
+fn tangential(n1: f32, cos: f32) -> f32 {
+    n1 * n1 * ((1.0 - cos) * (1.0 + cos)).max(0.0)
+}
+
+/// a² = n2² cos²θ_t, negative under total reflection. Of its two forms the one that subtracts less.
+#[inline(always)]
+fn inside(n1: f32, n2: f32, normal: f32, tangential: f32) -> f32 {
+    let squared = normal * normal;
+    let (steep, grazing) = (n2 * n2 - tangential, (n2 - n1) * (n2 + n1) + squared);
+    if squared > tangential { steep } else { grazing }
 }
 
 #[inline(always)]
 fn one(n1: f32, n2: f32, cos: f32) -> (f32, f32) {
     let d = (n2 - n1) * (n2 + n1);
     let normal = n1 * cos;
-    let a_squared = inside(n1, n2, normal);
+    let tangential = tangential(n1, cos);
+    let a_squared = inside(n1, n2, normal, tangential);
     let a = a_squared.max(0.0).sqrt();
-    let tangential = n1 * n1 * ((1.0 - cos) * (1.0 + cos)).max(0.0);
     let sum = normal + a;
     let amplitude = d / (sum * sum + f32::MIN_POSITIVE);
     let product = normal * a;
