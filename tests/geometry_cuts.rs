@@ -120,7 +120,7 @@ fn impossible_proportions_say_which() {
         (Brilliant { culet: 0.4, ..Brilliant::default() }, "culet"),
     ];
     for (cut, words) in cases {
-        let error = cut.solid().err().expect(words);
+        let error = cut.solid().expect_err(words);
         assert!(error.to_string().contains(words), "{error}");
         assert!(!matches!(error, GeometryError::NoVolume));
     }
