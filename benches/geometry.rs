@@ -5,9 +5,7 @@ use std::hint::black_box;
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use glam::Vec3;
-use spectrel::geometry::{
-    Brilliant, Convex, Disk, Points, Ray, Rectangle, Shape, ShapeId, Sphere, StepCut, World,
-};
+use spectrel::geometry::{Brilliant, Convex, Disk, Points, Ray, Rectangle, Shape, ShapeId, Sphere, StepCut, World};
 
 fn main() {
     divan::main();
@@ -35,7 +33,8 @@ fn inner_rays(solid: &Convex) -> Vec<(Vec3, Vec3)> {
     (0..RAYS)
         .map(|_| {
             let toward = solid.center() + random.vector() * (0.3 * solid.radius());
-            let exit = solid.exit_lanes(&Points::<1>::splat(solid.center()), &Points::splat(random.vector().normalize()));
+            let exit =
+                solid.exit_lanes(&Points::<1>::splat(solid.center()), &Points::splat(random.vector().normalize()));
             let origin = solid.project(solid.center() + random.vector() * 0.1, exit.facet[0]);
             (origin, (toward - origin).normalize())
         })
@@ -50,10 +49,8 @@ fn brilliant(girdle_facets: u32) -> Convex {
 fn exits<const N: usize>(bencher: Bencher, girdle_facets: u32) {
     let solid = brilliant(girdle_facets);
     let rays = inner_rays(&solid);
-    let packets: Vec<(Points<N>, Points<N>)> = rays
-        .chunks_exact(N)
-        .map(|c| (Points::from_fn(|i| c[i].0), Points::from_fn(|i| c[i].1)))
-        .collect();
+    let packets: Vec<(Points<N>, Points<N>)> =
+        rays.chunks_exact(N).map(|c| (Points::from_fn(|i| c[i].0), Points::from_fn(|i| c[i].1))).collect();
     bencher.counter(ItemsCount::new(RAYS)).bench(|| {
         let mut sum = 0;
         for (o, d) in black_box(&packets) {
@@ -66,6 +63,11 @@ fn exits<const N: usize>(bencher: Bencher, girdle_facets: u32) {
 #[divan::bench(args = [32, 64])]
 fn brilliant_exit_1_lane(bencher: Bencher, girdle_facets: u32) {
     exits::<1>(bencher, girdle_facets);
+}
+
+#[divan::bench(args = [32, 64])]
+fn brilliant_exit_4_lanes(bencher: Bencher, girdle_facets: u32) {
+    exits::<4>(bencher, girdle_facets);
 }
 
 #[divan::bench(args = [32, 64])]

@@ -120,7 +120,7 @@ fn impossible_proportions_say_which() {
         (Brilliant { culet: 0.4, ..Brilliant::default() }, "culet"),
     ];
     for (cut, words) in cases {
-        let error = cut.solid().err().expect(words);
+        let error = cut.solid().expect_err(words);
         assert!(error.to_string().contains(words), "{error}");
         assert!(!matches!(error, GeometryError::NoVolume));
     }
@@ -134,12 +134,19 @@ fn step_cut_has_its_steps() {
     let size = solid.bounds().size();
     assert!((size.y - 1.0).abs() < 1e-6 && (size.x - 1.4).abs() < 1e-6);
     let slopes = |up: bool| {
-        let mut all: Vec<f32> = solid.facets().iter().filter(|f| if up { f.normal.z > 1e-4 } else { f.normal.z < -1e-4 }).map(slope).collect();
+        let mut all: Vec<f32> = solid
+            .facets()
+            .iter()
+            .filter(|f| if up { f.normal.z > 1e-4 } else { f.normal.z < -1e-4 })
+            .map(slope)
+            .collect();
         all.sort_by(f32::total_cmp);
         all.dedup_by(|a, b| (*a - *b).abs() < ANGLE);
         all
     };
-    let same = |a: Vec<f32>, b: &[f32]| assert!(a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < ANGLE), "{a:?}");
+    let same = |a: Vec<f32>, b: &[f32]| {
+        assert!(a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < ANGLE), "{a:?}")
+    };
     same(slopes(true), &[0.0, 33.0, 40.0, 47.0]);
     same(slopes(false), &[41.0, 48.0, 55.0]);
     let table = solid.facets().iter().find(|f| f.normal.z > 0.9999).unwrap();

@@ -37,9 +37,9 @@ fn shape(random: &mut Random, place: f32, size: f32) -> Shape {
         0 => Sphere::new(center, size).map(Into::into),
         1 => Rectangle::new(center, u, v).map(Into::into),
         2 => Disk::new(center, u, v).map(Into::into),
-        _ => Convex::cuboid(Vec3::ZERO, Vec3::new(0.3, 0.7, 1.0) * size)
-            .map(Shape::from)
-            .and_then(|s| s.transformed(&Affine3A::from_rotation_translation(Quat::from_axis_angle(random.direction(), 1.0), center))),
+        _ => Convex::cuboid(Vec3::ZERO, Vec3::new(0.3, 0.7, 1.0) * size).map(Shape::from).and_then(|s| {
+            s.transformed(&Affine3A::from_rotation_translation(Quat::from_axis_angle(random.direction(), 1.0), center))
+        }),
     };
     made.unwrap()
 }
@@ -207,11 +207,14 @@ fn a_closed_room_of_rectangles_has_no_cracks() {
 #[test]
 fn light_under_a_stone_on_a_table_goes_through_both() {
     // Table and stone share a plane that is no round number; rays go down through the stone onto the table and back up.
-    let turn = Affine3A::from_rotation_translation(Quat::from_axis_angle(Vec3::new(0.6, 0.0, 0.8), 0.7), Vec3::new(5.0, 3.0, 1.0));
+    let turn = Affine3A::from_rotation_translation(
+        Quat::from_axis_angle(Vec3::new(0.6, 0.0, 0.8), 0.7),
+        Vec3::new(5.0, 3.0, 1.0),
+    );
     let stone = Convex::cuboid(Vec3::new(0.0, 0.0, 0.5), Vec3::splat(0.5)).unwrap();
     let table = Rectangle::new(Vec3::ZERO, Vec3::X * 20.0, Vec3::Y * 20.0).unwrap();
     for order in 0..2 {
-        let mut shapes = vec![Shape::from(stone.clone()), Shape::from(table)];
+        let mut shapes = [Shape::from(stone.clone()), Shape::from(table)];
         shapes.rotate_left(order);
         let (stone_id, table_id) = (ShapeId(order as u32), ShapeId(1 - order as u32));
         let shapes = shapes.iter().map(|s| s.transformed(&turn).unwrap()).collect();
@@ -250,6 +253,57 @@ fn light_under_a_stone_on_a_table_goes_through_both() {
             assert_eq!((inner.shape, inner.side), (stone_id, Side::Inside));
         }
     }
+}
+
+#[test]
+fn lamps_that_touch_other_shapes_are_seen() {
+    // A lamp in the plane of the ceiling, and a ball of light that lies on it from below; all turned away from the axes.
+    let turn = Affine3A::from_rotation_translation(
+        Quat::from_axis_angle(Vec3::new(0.0, 0.6, 0.8), 0.9),
+        Vec3::new(2.0, 7.0, -1.0),
+    );
+    let shapes: Vec<Shape> = [
+        Rectangle::new(Vec3::Z * 3.0, Vec3::Y * 8.0, Vec3::X * 8.0).unwrap().into(),
+        Rectangle::new(Vec3::Z * 3.0, Vec3::Y, Vec3::X).unwrap().into(),
+        Shape::from(Sphere::new(Vec3::new(2.0, 1.0, 2.75), 0.25).unwrap()),
+        Rectangle::new(Vec3::ZERO, Vec3::X * 8.0, Vec3::Y * 8.0).unwrap().into(),
+    ]
+    .iter()
+    .map(|s: &Shape| s.transformed(&turn).unwrap())
+    .collect();
+    let world = World::new(shapes).unwrap();
+    let mut random = Random(29);
+    for _ in 0..50_000 {
+        let floor = turn.transform_point3(Vec3::new(random.unit() * 7.0 - 3.5, random.unit() * 7.0 - 3.5, 0.0));
+        let up = turn.transform_vector3(Vec3::new(random.unit() - 0.5, random.unit() - 0.5, -1.0));
+        let start = Ray::free(floor - up * 0.1, up.normalize());
+        let hit = world.closest(&start, f32::INFINITY).unwrap();
+        assert_eq!(hit.shape, ShapeId(3));
+        for lamp in [ShapeId(1), ShapeId(2)] {
+            let toward = world.shape(lamp).unwrap().sample_toward(hit.point, [random.unit(), random.unit()]).unwrap();
+            let shadow = Ray::leaving(&hit, Side::Outside, toward.direction);
+            let ball_between =
+                lamp == ShapeId(1) && world.closest(&shadow, f32::INFINITY).is_some_and(|h| h.shape == ShapeId(2));
+            assert_eq!(world.occluded(&shadow, toward.distance, Some(lamp)), ball_between);
+        }
+    }
+}
+
+#[test]
+fn odd_worlds_are_searched_too() {
+    // All boxes the same, and sizes over thirty orders of magnitude: the tree may be as deep as it likes.
+    let same: Vec<Shape> = (0..3000).map(|_| Sphere::new(Vec3::X, 0.5).unwrap().into()).collect();
+    let world = World::new(same).unwrap();
+    let hit = world.closest(&Ray::free(Vec3::ZERO, Vec3::X), f32::INFINITY).unwrap();
+    assert_eq!((hit.t, hit.shape), (0.5, ShapeId(0)), "the first of equals");
+    let nested: Vec<Shape> =
+        (0..300).map(|i| Sphere::new(Vec3::ZERO, libm::powf(1.2, i as f32 - 150.0)).unwrap().into()).collect();
+    let world = World::new(nested).unwrap();
+    let far = world.bounds().max.x * 2.0;
+    let hit = world.closest(&Ray::free(Vec3::X * far, -Vec3::X), f32::INFINITY).unwrap();
+    assert_eq!(hit.shape, ShapeId(299));
+    let next = world.closest(&Ray::leaving(&hit, Side::Inside, -Vec3::X), f32::INFINITY).unwrap();
+    assert_eq!((next.shape, next.side), (ShapeId(298), Side::Outside));
 }
 
 #[test]

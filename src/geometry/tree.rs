@@ -19,7 +19,7 @@ use super::Bounds;
 
 const WIDTH: usize = 8;
 
-/// Boxes up to which a single node needs no tree.
+/// The item of an unused slot, whose empty box is never met.
 const NO_ITEM: u32 = u32::MAX;
 
 /// Eight boxes: `planes[axis][0]` their minima, `planes[axis][1]` their maxima. Unused slots hold empty boxes.

@@ -4,8 +4,9 @@ use super::ray::{Crossing, Departure, Hit, Probe, Ray, ShapeId, Side, sum_abs};
 use super::tree::{BoxRay, Tree};
 use super::{Bounds, GeometryError, Shape};
 
-/// Shapes up to which a plain list is searched.
-const LIST: usize = 4;
+/// Shapes up to which a plain list is searched. Measured on a table-top scene, ns a ray, list against tree: 6 shapes 85
+/// and 116, 8 shapes 137 and 117, 12 shapes 203 and 136.
+const LIST: usize = 6;
 
 /// Shapes in world space, in the order they were given.
 #[derive(Clone, Debug)]

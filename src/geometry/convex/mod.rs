@@ -14,7 +14,7 @@ pub use exit::{Exits, Points};
 pub use polyhedron::Plane;
 
 use super::{Bounds, GeometryError, check};
-use exit::{BLOCK, Block};
+use exit::{BLOCK, Block, Spread};
 use polyhedron::Polyhedron;
 
 /// A facet of a convex solid.
@@ -39,6 +39,7 @@ pub struct Convex {
     /// Largest distance of a vertex from the centre.
     radius: f32,
     blocks: Vec<Block>,
+    spread: Vec<Spread>,
     facets: Vec<Facet>,
     vertices: Vec<Vec3>,
     edges: Vec<[u32; 2]>,
@@ -107,6 +108,7 @@ impl Convex {
             center,
             radius: radius as f32,
             blocks,
+            spread: facets.iter().map(|f| Spread::new(f.normal, f.offset)).collect(),
             bounds: Bounds::of(vertices.iter().copied()),
             area: facets.iter().map(|f| f.area as f64).sum::<f64>() as f32,
             facets,

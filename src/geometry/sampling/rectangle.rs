@@ -55,12 +55,20 @@ impl Spherical {
             (w / w2.sqrt(), z2 / w2)
         };
         let [n0, n1, n2, n3] = [side(-y0), side(x1), side(y1), side(-x0)];
-        let angle = |a: (f64, f64), b: (f64, f64)| {
+        // Cosine and sine of the inner angle between two such planes; angles add as complex numbers multiply, which
+        // takes two atan2 instead of four.
+        let corner = |a: (f64, f64), b: (f64, f64)| {
             let sin2 = a.1 + b.1 - a.1 * b.1;
-            libm::atan2(sin2.max(0.0).sqrt(), -a.0 * b.0)
+            (-a.0 * b.0, sin2.max(0.0).sqrt())
         };
-        let k = 2.0 * PI - angle(n2, n3) - angle(n3, n0);
-        let solid_angle = angle(n0, n1) + angle(n1, n2) - k;
+        let times = |a: (f64, f64), b: (f64, f64)| (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0);
+        let turn = |a: (f64, f64)| {
+            let angle = libm::atan2(a.1, a.0);
+            if angle < 0.0 { angle + 2.0 * PI } else { angle }
+        };
+        let (first, last) = (times(corner(n0, n1), corner(n1, n2)), times(corner(n2, n3), corner(n3, n0)));
+        let k = 2.0 * PI - turn(last);
+        let solid_angle = turn(times(first, last));
         (z0 < 0.0 && solid_angle > SMALL).then_some(Self {
             x,
             y,
