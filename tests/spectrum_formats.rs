@@ -136,3 +136,78 @@ fn formulas_agree_with_an_independent_evaluation() {
     }
     assert_eq!(seen, [true; 9]);
 }
+
+/// A page as the database has it: HTML in the citation, a formula, a k table, keys that we do not read.
+const BK7: &str = "# this file is part of refractiveindex.info database
+
+REFERENCES: |
+    <a href=\"https://doi.org/10.1000/example\">A catalogue</a><br>
+    See also <a href=\"https://example.org/sheets.pdf\">its sheets</a>
+COMMENTS: |
+    step 0.5 available
+DATA:
+  - type: formula 2
+    wavelength_range: 0.3 2.5
+    coefficients: 0 1.03961212 0.00600069867 0.231792344 0.0200179144 1.01046945 103.560653
+  - type: tabulated k
+    data: |
+        0.300 2.8607E-06
+        0.310 1.3679E-06
+        0.310 1.3679E-06
+        2.500 8.1300E-06
+CONDITIONS:
+    temperature: 293
+PROPERTIES:
+    thermal_dispersion:
+      - type: formula A
+        coefficients: 1.86e-06 1.31e-08 -1.37e-11 4.34e-07 6.27e-10 0.17
+    nd: 1.5168
+";
+
+#[test]
+fn a_page_of_the_database_reads() {
+    let folder = Folder::new();
+    let library = Library::new(Vec::new());
+    let base = folder.write("N-BK7.yml", BK7);
+    let ior = library.ior("N-BK7.yml", base).unwrap_or_else(|error| panic!("{error}"));
+    assert!((ior.n.at(587.5618) - 1.5168).abs() < 1e-5);
+    assert_eq!(ior.k.at(310.0), 1.3679e-6);
+    assert_eq!(ior.about.source.doi.as_deref(), Some("10.1000/example"));
+    assert_eq!(ior.about.source.title, "A catalogue See also its sheets");
+    assert_eq!(ior.about.range_nm, Some((300.0, 2500.0)));
+    assert!(ior.about.covers_nm(360.0, 830.0));
+    let _: &(dyn Send + Sync) = &library;
+}
+
+mod damaged {
+    //! No file makes the readers panic, and a damaged one reads or is refused with its name.
+
+    use proptest::prelude::*;
+
+    use super::*;
+
+    const TOML: &str = "quantity = \"ior\"\n[source]\ntitle = \"t\"\nauthors = \"é\"\nlicence = \"l\"\norigin = \"o\"\n[sample]\ndescription = \"d\"\nconfidence = \"low\"\n[table]\nwavelength_nm = [400, 500]\nn = [1, 2]\nk = [0, 1]\n";
+    const CSV: &str = "# µ\nwavelength_um,n,k\n0.4,1.5,0\n0.5,1.6,1e-3\n";
+
+    proptest! {
+        #[test]
+        fn files_are_read_or_refused(
+            file in 0..3_usize,
+            cuts in prop::collection::vec((0.0..1.0_f64, 0..4_usize, "[ -~\\n\\tµ]{0,4}"), 1..5),
+        ) {
+            let (name, text) = [("own.toml", TOML), ("own.yml", BK7), ("own.csv", CSV)][file];
+            let mut chars: Vec<char> = text.chars().collect();
+            for (place, length, insert) in cuts {
+                let start = (place * chars.len() as f64) as usize;
+                let end = (start + length).min(chars.len());
+                chars.splice(start..end, insert.chars());
+            }
+            let folder = Folder::new();
+            let base = folder.write(name, &chars.into_iter().collect::<String>());
+            match Library::new(Vec::new()).ior(name, base) {
+                Ok(ior) => prop_assert!(ior.n.at(550.0) > 0.0 && ior.k.at(550.0) >= 0.0),
+                Err(error) => prop_assert!(error.to_string().contains(name), "{error}"),
+            }
+        }
+    }
+}
