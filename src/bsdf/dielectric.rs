@@ -8,7 +8,8 @@
 //!   How much is reflected, and cos θ_t, come from `fresnel::dielectric::fresnel`; how to choose between the two from `branch`.
 //! - Source: Born & Wolf, *Principles of Optics* (7th ed., 1999), 1.5.1. The tangential part is formed first, so its rounding
 //!   scales with its own size; one Newton step for 1/√x ends at unit length.
-//! - Error (tests below): length 1 to 1.2e-7, Snell's law to 2e-7, at any angle and after 1,000 refractions in a row.
+//! - Error (tests below): length 1 to 1.5e-7, Snell's law (n sin θ as a vector) to 6e-7 at any angle; no drift in 1,000 refractions.
+//! - Cost (`benches/bsdf.rs`): 22 ns for Fresnel, the shared choice and eight refracted directions together.
 //! - Under total reflection (cos θ_t = 0) there is no refracted ray: what `refract` returns then is finite and unused.
 
 use super::Directions;

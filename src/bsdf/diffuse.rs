@@ -19,7 +19,7 @@ pub(super) fn sample<const N: usize>(reflectance: &Lanes<N>, u: [f32; 2]) -> Opt
     let (cos, sin) = cos_sin(u[0]);
     let radius = u[1].sqrt();
     let wi = Vec3::new(radius * cos, radius * sin, (1.0 - u[1]).sqrt());
-    (wi.z > 0.0).then(|| Sample { wi, weight: *reflectance, pdf: wi.z * FRAC_1_PI, delta: false })
+    (wi.z > 0.0).then_some(Sample { wi, weight: *reflectance, pdf: wi.z * FRAC_1_PI, delta: false })
 }
 
 #[inline]

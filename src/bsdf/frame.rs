@@ -2,6 +2,7 @@
 //!
 //! - Source: T. Duff et al., "Building an orthonormal basis, revisited" (2017): no square root, no branch, no singular normal.
 //! - Error (tests below): axes orthonormal to 3e-7 for every unit normal.
+//! - Cost (`benches/bsdf.rs`): 3.4 ns, one vector to world included.
 
 use glam::Vec3;
 

@@ -12,8 +12,9 @@
 //! - Sources: B. Walter et al., "Microfacet models for refraction through rough surfaces" (2007), eq. 33; E. Heitz, "Understanding
 //!   the masking-shadowing function in microfacet-based BRDFs" (2014), eq. 99; J. Dupuy & A. Benyoub, "Sampling visible GGX normals
 //!   with spherical caps" (2023), listing 1; Y. Tokuyoshi & K. Eto, "Bounded VNDF sampling for Smith–GGX reflections" (2024), eqs. 5, 6, 8.
-//! - Valid for α in (0, 1]. The bound cuts normals that would reflect below the horizon (α = 1 at 89°: 50 % of them without it).
-//! - D uses the tangential components of h, never 1 − cos²: at α = 1e-3 in f32 the latter has no correct digit.
+//! - Valid for α in (0, 1]. The bound cuts normals that would reflect below the horizon (α = 1, ωo = z: half of
+//!   them without it, none with it); at most 5.4 % of samples are still lost (α = 0.5 at 60°).
+//! - D uses the tangential components of h, never 1 − cos²: at α = 1e-3 that rounds to steps of 6 % of α².
 //!   The sampler forms 1 − b, 1 − k and 1 ± z from sums of positive terms for the same reason.
 
 use super::turn::cos_sin;

@@ -11,12 +11,15 @@
 //!   for n ≪ k. Forming n2/n1 first would cost 7e-6 in R; the usual form in cos 2θ returns R < 0 in 4 % of index-matched cases.
 //! - Valid for n1 > 0, n2 ≥ 0, k2 ≥ 0, |N| up to 1e4, 0 ≤ c ≤ 1; k2 = 0 is allowed (a dielectric, total reflection included).
 //!   Identical media give R = 0 at every angle.
-//! - Error against `exact` at the same f32 inputs (`tests/fresnel_kernels.rs`): R to MEASURED_R absolute, 1 − R to MEASURED_T relative on metals.
-//!   Within 1e-3 of the critical angle of a nearly lossless medium the f32 input itself is ill-conditioned (5e-4).
-//! - Cost (`benches/fresnel.rs`): MEASURED_NS.
+//! - Error against `exact` at the same f32 inputs (`tests/fresnel_kernels.rs`, n 0.02–30, k 0.05–60, n1 1–2.4): R to 7.4e-7 absolute,
+//!   1 − R to 6.6e-7 relative. Beside the critical angle of a nearly lossless medium the f32 input itself is ill-conditioned (5e-4).
+//! - Cost (`benches/fresnel.rs`, SSE2, Sapphire Rapids): 8 ns for one lane, 14 ns for eight; with 1 − R 10 and 18 ns.
+//!   A second division instead of scaling by g costs 8 % more. One form of Re w² instead of two saves 2 ns and costs 30 × in 1 − R
+//!   of epsilon-near-zero metals. Not inlining the kernel costs 4 ns.
 
 use super::{Dielectric, Model, dielectric};
 use crate::spectrum::Lanes;
+use std::f32::consts::FRAC_1_SQRT_2;
 
 /// The indices of one hit: n1 outside, N = n2 + i k2 inside.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,10 +97,10 @@ impl Terms {
         let im_squared = 4.0 * (half_im * half_im);
         let normal = n1 * cos;
         let normal_squared = normal * normal;
-        let tangential = n1 * n1 * ((1.0 - cos) * (1.0 + cos));
+        let tangential = (n1 * (1.0 - cos)) * (n1 * (1.0 + cos));
         // Re w² in two forms, of which the one that subtracts less is taken; both are formed first, so that no branch remains.
         let (steep, grazing) = (n2 * n2 - k_squared - tangential, d + normal_squared);
-        let re = if normal_squared > tangential { steep } else { grazing };
+        let re = if cos > FRAC_1_SQRT_2 { steep } else { grazing };
         let q = (re * re + im_squared).sqrt();
         let g_squared = 0.5 * (q + re.abs());
         let g = g_squared.sqrt() + TINY;
