@@ -45,10 +45,16 @@ fn error_in_furnace(objects: &str) -> f64 {
 
 const STONES: [(&str, &str); 4] = [
     ("glass sphere", r#"objects = [{ material = "fused-silica", shape.sphere = { radius = 1 } }]"#),
-    ("diamond", r#"objects = [{ material = "diamond", shape.brilliant = { diameter = 2 }, transform.translate = [0, 0, -0.5] }]"#),
-    ("box of SF11 that does not absorb", r#"
+    (
+        "diamond",
+        r#"objects = [{ material = "diamond", shape.brilliant = { diameter = 2 }, transform.translate = [0, 0, -0.5] }]"#,
+    ),
+    (
+        "box of SF11 that does not absorb",
+        r#"
         materials.sf11 = { dielectric = { ior = "SCHOTT/sf11", absorption = 0 } }
-        objects = [{ material = "sf11", shape.box = { size = [1.5, 1.5, 1] }, transform.rotate = [10, 20, 30] }]"#),
+        objects = [{ material = "sf11", shape.box = { size = [1.5, 1.5, 1] }, transform.rotate = [10, 20, 30] }]"#,
+    ),
     ("stone cut in steps", r#"objects = [{ material = "sapphire", shape.step-cut = { width = 1.5, length = 2 } }]"#),
 ];
 
@@ -104,7 +110,8 @@ fn gold_sphere(factor: f64) -> [f64; 3] {
         };
         cosines.iter().map(|&cos| look_up(cos)).sum::<f64>() / cosines.len() as f64
     };
-    let points: Vec<(f64, f64)> = (0..=94).map(|i| 360.0 + 5.0 * f64::from(i)).map(|nm| (nm, mean_albedo(nm))).collect();
+    let points: Vec<(f64, f64)> =
+        (0..=94).map(|i| 360.0 + 5.0 * f64::from(i)).map(|nm| (nm, mean_albedo(nm))).collect();
     let spectrum = Spectrum::Table(Table::from_points(&points, Outside::Hold));
     let whole = tristimulus(&[&light.spectrum], &observer);
     let reflected = tristimulus(&[&light.spectrum, &spectrum], &observer);

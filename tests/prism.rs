@@ -53,7 +53,8 @@ fn deviation(world: &World, n: f32, incidence: f64) -> Option<f64> {
 
 /// n = sin((A + D)/2) / sin(A/2) at the smallest deviation D (Fraunhofer 1814).
 fn index_recovered(world: &World, n: f32) -> f64 {
-    let deviations = (0..40_000).map(|i| 20.0 + f64::from(i) * 69.0 / 40_000.0).filter_map(|angle| deviation(world, n, angle));
+    let deviations =
+        (0..40_000).map(|i| 20.0 + f64::from(i) * 69.0 / 40_000.0).filter_map(|angle| deviation(world, n, angle));
     let smallest = deviations.fold(f64::INFINITY, f64::min);
     let apex = APEX.to_radians();
     ((apex + smallest) / 2.0).sin() / (apex / 2.0).sin()

@@ -3,8 +3,8 @@
 mod common;
 
 use common::{film, library, scene};
-use spectrel::film::{Film, Window};
 use spectrel::film::fnv1a_64;
+use spectrel::film::{Film, Window};
 use spectrel::render::{Kernel, render};
 use spectrel::scene::{Needs, Overrides};
 use std::sync::atomic::AtomicBool;

@@ -13,14 +13,11 @@ use std::path::Path;
 fn mean_rgb(text: &str) -> [f64; 3] {
     let scene = scene(text, &Overrides::default());
     let film = film(&scene);
-    let develop = Develop {
-        exposure: Exposure::Ev(0.0),
-        white: scene.picture.white,
-        space: RgbSpace::Srgb,
-        gamut: Gamut::Clip,
-    };
+    let develop =
+        Develop { exposure: Exposure::Ev(0.0), white: scene.picture.white, space: RgbSpace::Srgb, gamut: Gamut::Clip };
     let developed = film.develop(&develop).expect("a picture");
-    let sum = developed.rgb.iter().fold([0.0; 3], |sum: [f64; 3], rgb| std::array::from_fn(|i| sum[i] + f64::from(rgb[i])));
+    let sum =
+        developed.rgb.iter().fold([0.0; 3], |sum: [f64; 3], rgb| std::array::from_fn(|i| sum[i] + f64::from(rgb[i])));
     sum.map(|value| value / developed.rgb.len() as f64)
 }
 

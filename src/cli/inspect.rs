@@ -139,5 +139,10 @@ fn data_row(data: &DataReport) -> [String; 4] {
     let cover = if data.covers_visible { "" } else { ", does not cover 380–780 nm" };
     let year = data.year.map_or(String::new(), |year| format!(" {year}"));
     let first_author = data.authors.split([',', ';']).next().unwrap_or_default();
-    [format!("  {}", data.used_by), data.name.clone(), format!("{range}{cover}"), format!("{first_author}{year}, confidence {}", data.confidence)]
+    [
+        format!("  {}", data.used_by),
+        data.name.clone(),
+        format!("{range}{cover}"),
+        format!("{first_author}{year}, confidence {}", data.confidence),
+    ]
 }

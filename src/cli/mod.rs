@@ -78,7 +78,11 @@ fn read_text(path: &Path) -> Result<Text, SceneError> {
     let unreadable = |error: std::io::Error| SceneError::new(format!("cannot read {}: {error}", path.display()));
     let size = std::fs::metadata(path).map_err(unreadable)?.len();
     if size > LARGEST {
-        return Err(SceneError::new(format!("{} is {} MB: a scene is a text file of at most 64 MB", path.display(), size >> 20)));
+        return Err(SceneError::new(format!(
+            "{} is {} MB: a scene is a text file of at most 64 MB",
+            path.display(),
+            size >> 20
+        )));
     }
     let bytes = std::fs::read(path).map_err(unreadable)?;
     match String::from_utf8(bytes) {

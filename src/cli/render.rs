@@ -2,9 +2,9 @@
 
 use super::progress::Shown;
 use super::{SceneArgs, show};
+use crate::film::fnv1a_64;
 use crate::film::{Develop, Developed, Exposure, Film, Gamut, Window};
 use crate::fresnel::FresnelModel;
-use crate::film::fnv1a_64;
 use crate::image::{self, Bits, ExrSpace, Metadata, Options};
 use crate::render::{Kernel, render};
 use crate::scene::describe::{ExposureValue, GamutName};

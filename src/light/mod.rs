@@ -26,7 +26,11 @@ pub enum Environment {
     Dark,
     Constant(SpectrumId),
     /// Linear in the sine of the elevation between straight down, level and straight up (+z).
-    Gradient { nadir: SpectrumId, horizon: SpectrumId, zenith: SpectrumId },
+    Gradient {
+        nadir: SpectrumId,
+        horizon: SpectrumId,
+        zenith: SpectrumId,
+    },
 }
 
 impl Environment {

@@ -49,7 +49,8 @@ impl<'a> Kernel<'a> {
         let mut tables = scene.spectra.tabulate(&nodes, scene.settings.lanes as usize);
         let scale = f64::from(tables.sets()) * LUMENS_PER_WATT;
         let observer = [0, 1, 2].map(|axis| {
-            let weight = |node| nodes.weight_nm(node) * scene.picture.observer.at(nodes.wavelength_nm(node))[axis] * scale;
+            let weight =
+                |node| nodes.weight_nm(node) * scene.picture.observer.at(nodes.wavelength_nm(node))[axis] * scale;
             tables.push(&(0..NODE_COUNT).map(|node| weight(node) as f32).collect::<Vec<_>>())
         });
         let sampler = match scene.settings.sampler {

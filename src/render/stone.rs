@@ -5,8 +5,8 @@
 //! (1−Rᵢ)/(1−p). The sum of the weights is kept at every choice, so that no lane's weight exceeds N; a lane beyond its
 //! critical angle leaves with weight 0. Facets are half-spaces, met without epsilon and without leaks.
 
-use super::path::Path;
 use super::Kernel;
+use super::path::Path;
 use crate::bsdf::dielectric::{reflect_lanes, refract_lanes};
 use crate::bsdf::{Directions, choose};
 use crate::geometry::{Hit, Points, Shape};

@@ -2,7 +2,9 @@
 //!
 //! Untagged serde enums would do it too, but they lose the place of what is wrong inside a table; one visitor keeps it.
 
-use super::describe::{AbsorptionSource, ExposureValue, IndexSource, LightSpectrum, OwnLight, ReflectanceSource, Scale};
+use super::describe::{
+    AbsorptionSource, ExposureValue, IndexSource, LightSpectrum, OwnLight, ReflectanceSource, Scale,
+};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use std::fmt;
@@ -88,7 +90,8 @@ impl<'de> Forms<'de> for ExposureValue {
 }
 
 impl<'de> Forms<'de> for LightSpectrum {
-    const EXPECTED: &'static str = "an illuminant's name or file, or one of { blackbody = K }, { daylight = K }, { table = … }, { lines = … }";
+    const EXPECTED: &'static str =
+        "an illuminant's name or file, or one of { blackbody = K }, { daylight = K }, { table = … }, { lines = … }";
 
     fn name<E: Error>(name: &str) -> Result<Self, E> {
         Ok(Self::Name(name.to_owned()))

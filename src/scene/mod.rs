@@ -51,8 +51,15 @@ pub struct Object {
 pub enum Surface {
     /// What only shines.
     Black,
-    Diffuse { reflectance: SpectrumId },
-    Conductor { n: SpectrumId, k: SpectrumId, alpha: f32, model: FresnelModel },
+    Diffuse {
+        reflectance: SpectrumId,
+    },
+    Conductor {
+        n: SpectrumId,
+        k: SpectrumId,
+        alpha: f32,
+        model: FresnelModel,
+    },
     Dielectric(Interface),
 }
 

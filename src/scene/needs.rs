@@ -80,7 +80,9 @@ fn light_lines(scene: &Scene) -> Vec<f64> {
 fn wavelengths(lines: &[f64]) -> Decision {
     match lines.len() {
         0 => decision("emission lines", false, "no light has any: wavelengths follow the visible density"),
-        count => decision("emission lines", true, format!("{count} in the lights: half of the wavelengths lie around them")),
+        count => {
+            decision("emission lines", true, format!("{count} in the lights: half of the wavelengths lie around them"))
+        }
     }
 }
 
@@ -93,7 +95,11 @@ fn dispersion(scene: &Scene) -> Decision {
     };
     match objects_with(scene, disperses) {
         names if names.is_empty() => decision("dispersion", false, "no dielectric's index changes with wavelength"),
-        names => decision("dispersion", true, format!("the index changes with wavelength in {}: lanes part there", listed(&names))),
+        names => decision(
+            "dispersion",
+            true,
+            format!("the index changes with wavelength in {}: lanes part there", listed(&names)),
+        ),
     }
 }
 
@@ -142,7 +148,9 @@ fn light_sampling(scene: &Scene) -> Decision {
     };
     match (shining, objects_with(scene, lit).is_empty()) {
         (0, _) => decision("light sampling", false, "no shape shines"),
-        (_, true) => decision("light sampling", false, "every surface is smooth: its one direction finds the light or not"),
+        (_, true) => {
+            decision("light sampling", false, "every surface is smooth: its one direction finds the light or not")
+        }
         (count, false) => decision("light sampling", true, format!("{count} shapes shine on surfaces that scatter")),
     }
 }
@@ -150,7 +158,11 @@ fn light_sampling(scene: &Scene) -> Decision {
 fn environment(scene: &Scene) -> Decision {
     match scene.lights.environment {
         Environment::Dark => decision("environment", false, "none"),
-        Environment::Constant(_) => decision("environment", true, "constant: found by the directions that surfaces choose"),
-        Environment::Gradient { .. } => decision("environment", true, "gradient: found by the directions that surfaces choose"),
+        Environment::Constant(_) => {
+            decision("environment", true, "constant: found by the directions that surfaces choose")
+        }
+        Environment::Gradient { .. } => {
+            decision("environment", true, "gradient: found by the directions that surfaces choose")
+        }
     }
 }

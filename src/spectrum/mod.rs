@@ -32,8 +32,8 @@ mod table;
 mod toml_file;
 mod upsample;
 
-pub use arena::{Arena, SpectrumId, Tables};
 pub use about::{About, Confidence, Dataset, Ior, Quantity, Sample, Source};
+pub use arena::{Arena, SpectrumId, Tables};
 pub use bands::{Band, Bands};
 pub use color::{Matrix3, Xyz, bradford, lab_from_xyz, xyz_from_lab, xyz_from_xy};
 pub use curve::Spectrum;

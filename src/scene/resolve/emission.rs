@@ -56,7 +56,8 @@ impl Resolver<'_> {
     ) -> Result<(Spectrum, bool), SceneError> {
         let own = match source {
             LightSpectrum::Name(name) => {
-                let found = self.library.illuminant(name, self.text.base()).map_err(|error| self.text.error(span, error))?;
+                let found =
+                    self.library.illuminant(name, self.text.base()).map_err(|error| self.text.error(span, error))?;
                 self.note_data(used_by, &found.about);
                 return Ok((found.spectrum.clone(), false));
             }
@@ -68,7 +69,8 @@ impl Resolver<'_> {
                 (Spectrum::Blackbody { kelvin: value }, true)
             }
             OwnLight::Daylight(kelvin) => {
-                let daylight = Daylight::new(*kelvin.get_ref()).map_err(|error| self.text.error(&kelvin.span(), error))?;
+                let daylight =
+                    Daylight::new(*kelvin.get_ref()).map_err(|error| self.text.error(&kelvin.span(), error))?;
                 (Spectrum::Daylight(daylight), false)
             }
             OwnLight::Table(table) => (self.own_table(table, span)?, false),
@@ -80,7 +82,11 @@ impl Resolver<'_> {
         let error = |message: String| Err(self.text.error(span, message));
         let (nm, value) = (&table.wavelength_nm, &table.value);
         if nm.len() != value.len() || nm.len() < 2 {
-            return error(format!("{} wavelengths and {} values: a table needs at least two pairs", nm.len(), value.len()));
+            return error(format!(
+                "{} wavelengths and {} values: a table needs at least two pairs",
+                nm.len(),
+                value.len()
+            ));
         }
         if let Some(at) = nm.windows(2).position(|pair| !(pair[0] < pair[1])) {
             return error(format!("wavelengths must grow: {} nm is followed by {} nm", nm[at], nm[at + 1]));
@@ -93,9 +99,11 @@ impl Resolver<'_> {
     }
 
     fn lines(&self, lines: &[[f64; 2]], span: &Range<usize>) -> Result<Spectrum, SceneError> {
-        let fits = |&[nm, power]: &[f64; 2]| (LAMBDA_MIN_NM..=LAMBDA_MAX_NM).contains(&nm) && power.is_finite() && power > 0.0;
+        let fits =
+            |&[nm, power]: &[f64; 2]| (LAMBDA_MIN_NM..=LAMBDA_MAX_NM).contains(&nm) && power.is_finite() && power > 0.0;
         if let Some([nm, power]) = lines.iter().find(|line| !fits(line)) {
-            let message = format!("a line of power {power} at {nm} nm: lines lie in 360–830 nm and have a power above 0");
+            let message =
+                format!("a line of power {power} at {nm} nm: lines lie in 360–830 nm and have a power above 0");
             return Err(self.text.error(span, message));
         }
         Ok(Spectrum::Lines(lines.iter().map(|&[nm, power]| Line { nm, power }).collect()))
@@ -119,7 +127,9 @@ impl Resolver<'_> {
             return Err(self.text.error(span, message).help("give `luminance` in cd/m² or `radiance` in W m⁻² sr⁻¹"));
         };
         if let Some((other, second)) = given.next() {
-            return Err(self.text.error(&second.span(), format!("`{name}` and `{other}` both say how strong the light is")));
+            return Err(self
+                .text
+                .error(&second.span(), format!("`{name}` and `{other}` both say how strong the light is")));
         }
         let value = self.not_negative(number, name)?;
         if name == "scale" {

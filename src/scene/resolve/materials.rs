@@ -4,9 +4,7 @@ use super::Resolver;
 use crate::fresnel::FresnelModel;
 use crate::scene::describe::{self, AbsorptionSource, IndexSource, ReflectanceSource};
 use crate::scene::{Inside, Interface, Medium, MediumId, SceneError, Surface, Text};
-use crate::spectrum::{
-    Ior, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Outside, Spectrum, SpectrumError, Table, Upsampler, nearest,
-};
+use crate::spectrum::{Ior, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Outside, Spectrum, SpectrumError, Table, Upsampler, nearest};
 use std::ops::Range;
 use std::sync::Arc;
 use toml::Spanned;
@@ -37,7 +35,8 @@ impl Resolver<'_> {
     pub fn outside(&mut self, name: &Spanned<String>) -> Result<(), SceneError> {
         let described = self.described(name)?;
         let Some(dielectric) = &described.material.dielectric else {
-            let message = format!("`{}` is no dielectric: what surrounds a scene must let light through", name.get_ref());
+            let message =
+                format!("`{}` is no dielectric: what surrounds a scene must let light through", name.get_ref());
             return Err(self.text.error(&name.span(), message));
         };
         self.media[0] = self.medium(&described, dielectric)?;
@@ -48,7 +47,12 @@ impl Resolver<'_> {
         let wanted = name.get_ref();
         if let Some(material) = self.own_materials.remove(wanted) {
             let span = material.span();
-            return Ok(Described { name: wanted.clone(), text: self.text.clone(), material: material.into_inner(), span });
+            return Ok(Described {
+                name: wanted.clone(),
+                text: self.text.clone(),
+                material: material.into_inner(),
+                span,
+            });
         }
         let found = self.library.material(wanted).map_err(|error| self.unknown_material(name, error))?;
         let text = Text::new(found.origin, found.text);
@@ -78,10 +82,9 @@ impl Resolver<'_> {
                 Ok(Surface::Dielectric(Interface { medium, model, inside: Inside::General }))
             }
             (None, None, Some(diffuse)) => self.diffuse(described, diffuse.get_ref()),
-            (None, None, None) => {
-                Err(text.error(span, format!("material `{}` is of no kind", described.name))
-                    .help("give it one of [conductor], [dielectric], [diffuse]"))
-            }
+            (None, None, None) => Err(text
+                .error(span, format!("material `{}` is of no kind", described.name))
+                .help("give it one of [conductor], [dielectric], [diffuse]")),
             _ => Err(text.error(span, format!("material `{}` is of more than one kind", described.name))),
         }
     }
@@ -120,7 +123,11 @@ impl Resolver<'_> {
         }
     }
 
-    fn medium(&mut self, described: &Described, dielectric: &Spanned<describe::Dielectric>) -> Result<Medium, SceneError> {
+    fn medium(
+        &mut self,
+        described: &Described,
+        dielectric: &Spanned<describe::Dielectric>,
+    ) -> Result<Medium, SceneError> {
         let source = &dielectric.get_ref().ior;
         let ior = self.ior(described, source)?;
         let absorption = match &dielectric.get_ref().absorption {
@@ -160,9 +167,10 @@ impl Resolver<'_> {
             &AbsorptionSource::PerMetre(value) if value.is_finite() && value >= 0.0 => {
                 Ok((value > 0.0).then_some(Spectrum::Constant(value)))
             }
-            AbsorptionSource::PerMetre(value) => {
-                Err(text.error(&source.span(), format!("an absorption coefficient of {value} 1/m: it must be finite and not negative")))
-            }
+            AbsorptionSource::PerMetre(value) => Err(text.error(
+                &source.span(),
+                format!("an absorption coefficient of {value} 1/m: it must be finite and not negative"),
+            )),
         }
     }
 
@@ -195,7 +203,9 @@ fn roughness(text: &Text, conductor: &describe::Conductor) -> Result<f64, SceneE
         (None, Some(r)) => (r, "perceptual_roughness"),
         (Some(_), Some(r)) => {
             let message = "`roughness` and `perceptual_roughness` both say how rough the surface is";
-            return Err(text.error(&r.span(), message).help("`roughness` is α itself; `perceptual_roughness` r means α = r²"));
+            return Err(text
+                .error(&r.span(), message)
+                .help("`roughness` is α itself; `perceptual_roughness` r means α = r²"));
         }
     };
     let value = *number.get_ref();

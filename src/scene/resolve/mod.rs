@@ -85,7 +85,8 @@ struct Resolver<'a> {
 impl Resolver<'_> {
     fn scene(mut self, file: &SceneFile, overrides: &Overrides) -> Result<Scene, SceneError> {
         let settings = self.settings(&file.render, overrides)?;
-        self.meters_per_unit = file.meters_per_unit.as_ref().map(|m| self.positive(m, "`meters_per_unit`")).transpose()?;
+        self.meters_per_unit =
+            file.meters_per_unit.as_ref().map(|m| self.positive(m, "`meters_per_unit`")).transpose()?;
         let vacuum = self.spectra.add(Spectrum::Constant(1.0));
         self.media.push(Medium { name: "vacuum".into(), n: vacuum, absorption: None, dispersive: false });
         file.outside.as_ref().map(|name| self.outside(name)).transpose()?;
@@ -152,9 +153,12 @@ impl Resolver<'_> {
         let [x0, y0, x1, y1] = crop;
         if !(x0 < x1 && x1 <= width && y0 < y1 && y1 <= height) {
             let message = format!("--crop {x0},{y0},{x1},{y1} is no part of a picture of {width} × {height} pixels");
-            return Err(SceneError::new(message).help("give x0,y0,x1,y1 with x0 < x1 and y0 < y1, the upper ends excluded"));
+            return Err(
+                SceneError::new(message).help("give x0,y0,x1,y1 with x0 < x1 and y0 < y1, the upper ends excluded")
+            );
         }
-        let max_depth = render.max_depth.as_ref().map(|_| count(None, &render.max_depth, 1, "max_depth")).transpose()?;
+        let max_depth =
+            render.max_depth.as_ref().map(|_| count(None, &render.max_depth, 1, "max_depth")).transpose()?;
         Ok(Settings {
             width,
             height,
@@ -183,7 +187,10 @@ impl Resolver<'_> {
                 None if object.emission.is_some() => self.black(),
                 None => {
                     let message = format!("{name} has neither a material nor an emission");
-                    return Err(self.text.error(&span, message).help("add `material = \"…\"`: `spectrel list materials` shows them"));
+                    return Err(self
+                        .text
+                        .error(&span, message)
+                        .help("add `material = \"…\"`: `spectrel list materials` shows them"));
                 }
             };
             if let Surface::Dielectric(_) = self.surfaces[surface as usize] {
@@ -209,7 +216,9 @@ impl Resolver<'_> {
             return Err(self.text.error(&object.shape.span(), message).help("use a thin `box` instead"));
         }
         match &object.emission {
-            Some(emission) => Err(self.text.error(&emission.span(), format!("{name} is a dielectric: it cannot shine"))),
+            Some(emission) => {
+                Err(self.text.error(&emission.span(), format!("{name} is a dielectric: it cannot shine")))
+            }
             None => Ok(()),
         }
     }
@@ -238,7 +247,9 @@ impl Resolver<'_> {
             }
             (None, None) => return Err(self.text.error(&span, "the camera needs `fov` or `focal_length_mm`")),
             (Some(_), Some(focal)) => {
-                return Err(self.text.error(&focal.span(), "`fov` and `focal_length_mm` both say how wide the camera sees"));
+                return Err(self
+                    .text
+                    .error(&focal.span(), "`fov` and `focal_length_mm` both say how wide the camera sees"));
             }
         };
         let vector = |v: [f64; 3]| DVec3::from_array(v).as_vec3();
@@ -265,7 +276,10 @@ impl Resolver<'_> {
             let strongest = self.white_candidates.iter().max_by(|a, b| a.0.total_cmp(&b.0));
             strongest.map_or(Spectrum::Constant(1.0), |&(_, id)| self.spectra.get(id).clone())
         } else {
-            let found = self.library.illuminant(&white_balance, self.text.base()).map_err(|error| self.text.error(&span, error))?;
+            let found = self
+                .library
+                .illuminant(&white_balance, self.text.base())
+                .map_err(|error| self.text.error(&span, error))?;
             found.spectrum.clone()
         };
         let white = white_xyz(&white, &observer).map_err(|error| self.text.error(&span, error))?;

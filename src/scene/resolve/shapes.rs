@@ -36,7 +36,9 @@ fn build(shape: &describe::Shape) -> Result<Shape, GeometryError> {
             positive("the box's size", cuboid.size)?;
             Convex::cuboid(vector(cuboid.center), vector(cuboid.size) / 2.0)?.into()
         }
-        describe::Shape::Convex(convex) => Convex::from_planes(&convex.planes.iter().map(half_space).collect::<Vec<_>>())?.into(),
+        describe::Shape::Convex(convex) => {
+            Convex::from_planes(&convex.planes.iter().map(half_space).collect::<Vec<_>>())?.into()
+        }
         describe::Shape::Brilliant(cut) => brilliant(cut).solid()?.into(),
         describe::Shape::StepCut(cut) => step_cut(cut).solid()?.into(),
     })
