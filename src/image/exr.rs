@@ -26,6 +26,10 @@ use crate::film::Developed;
 use crate::spectrum::{RgbSpace, Xyz};
 
 /// Lossless ZIP of 16 lines; lines in order, whatever thread compressed them first.
+///
+/// A megapixel of shading with 5 % noise in every pixel, the worst case (two cores; MB and ms, f32 and half): ZIP of 16
+/// lines 11.9 and 3.5 in 207 and 122, PIZ 10.8 and 3.1 in 865 and 96, none 12.6 and 6.3 in 12 and 29. Noise in the
+/// low bits of f32 hardly packs, but black backgrounds do, and every reader knows ZIP. Small files want `half`.
 const ENCODING: Encoding =
     Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
 
