@@ -10,6 +10,8 @@
 //!     wavelength_range: 0.3 2.5   # `range` in older pages
 //!     coefficients: 0 1.0396 0.0060
 //! ```
+//!
+//! Some pages repeat a wavelength; the first of the repeats counts. Other keys (conditions, properties) are not read.
 
 use serde::Deserialize;
 use serde_saphyr::Spanned;
@@ -74,11 +76,12 @@ fn parse(text: &str) -> Result<Page, Fault> {
 
 impl Page {
     fn about(&self, name: &str) -> About {
-        let references = plain_text(self.references.as_deref().unwrap_or_default());
-        let doi = references.split("doi.org/").nth(1).and_then(|rest| rest.split_whitespace().next());
+        let references = self.references.as_deref().unwrap_or_default();
+        // The DOI hides in a link, before the tags are dropped.
+        let doi = references.split("doi.org/").nth(1).and_then(|rest| rest.split(['"', '\'', '<', ' ', '\n']).next());
         let source = Source {
             doi: doi.map(|doi| doi.trim_end_matches(['.', ')', ',']).to_owned()),
-            title: references,
+            title: plain_text(references),
             origin: name.to_owned(),
             ..Source::default()
         };
@@ -146,9 +149,13 @@ impl Entry {
                 let message = format!("{} numbers in a row, expected {N} for `{kind}`", row.len());
                 return Err(Fault::at(offset, message));
             }
-            for (i, word) in row.iter().enumerate() {
-                let value = if i == 0 { word.nm_from_um() } else { word.number() };
-                columns[i].push(value?);
+            let nm = row[0].nm_from_um()?;
+            if columns[0].last().is_some_and(|last: &Number| last.value == nm.value) {
+                continue;
+            }
+            columns[0].push(nm);
+            for (column, word) in columns.iter_mut().zip(row).skip(1) {
+                column.push(word.number()?);
             }
         }
         Ok(columns)
@@ -235,13 +242,7 @@ fn plain_text(html: &str) -> String {
     let mut rest = html;
     while let Some(start) = rest.find('<') {
         text.push_str(&rest[..start]);
-        let tag = &rest[start..];
-        // Keep a DOI that hides in a link.
-        if let Some(doi) = tag.split_once('>').and_then(|(tag, _)| tag.split_once("doi.org/")) {
-            let doi = doi.1.trim_end_matches(['"', '\'']);
-            text.push_str(&format!("doi.org/{doi} "));
-        }
-        rest = tag.split_once('>').map_or("", |(_, rest)| rest);
+        rest = rest[start..].split_once('>').map_or("", |(_, rest)| rest);
     }
     text.push_str(rest);
     text.split_whitespace().collect::<Vec<_>>().join(" ")

@@ -1,0 +1,226 @@
+//! From spectra to colours: published pairs, reference colours of metals, whites, and the renderer's nodes as a quadrature.
+
+use std::path::Path;
+
+use spectrel::spectrum::{
+    ColorMatching, Daylight, Density, Library, Line, Nodes, Observer, Outside, RgbSpace, Spectrum, Table, Upsampler,
+    bradford, ciede2000, lab_from_xyz, luminance, tristimulus, tristimulus_1nm, white_xyz, white_xyz_1nm,
+};
+
+fn library() -> Library {
+    Library::new(Vec::new())
+}
+
+fn observer(library: &Library) -> std::sync::Arc<ColorMatching> {
+    library.observer(Observer::Cie1931).unwrap()
+}
+
+fn light(library: &Library, name: &str) -> Spectrum {
+    library.illuminant(name, Path::new("")).unwrap().spectrum.clone()
+}
+
+fn far_apart(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn ciede2000_gives_the_published_differences() {
+    for line in include_str!("data/ciede2000_sharma_2005.csv").lines().skip(1) {
+        let v: Vec<f64> = line.split(',').map(|number| number.parse().unwrap()).collect();
+        let (a, b) = ([v[0], v[1], v[2]], [v[3], v[4], v[5]]);
+        for difference in [ciede2000(a, b), ciede2000(b, a)] {
+            assert!((difference - v[6]).abs() <= 5.0001e-5, "{line}: {difference}");
+        }
+    }
+    assert_eq!(ciede2000([50.0, 10.0, -10.0], [50.0, 10.0, -10.0]), 0.0);
+}
+
+#[test]
+fn palette_agrees_on_lab_and_difference() {
+    use palette::color_difference::Ciede2000;
+    let white = RgbSpace::Srgb.white_xyz();
+    let lab = |rgb| lab_from_xyz(RgbSpace::Srgb.xyz_from_rgb().apply(rgb), white);
+    let theirs = |[l, a, b]: [f64; 3]| palette::Lab::<palette::white_point::D65, f64>::new(l, a, b);
+    let (red, gold) = (lab([0.8, 0.1, 0.1]), lab([1.0, 0.77, 0.33]));
+    assert!((ciede2000(red, gold) - theirs(red).difference(theirs(gold))).abs() < 1e-9);
+}
+
+/// F0 by 1 nm sums under D65, linear sRGB, Bradford from the integrated white.
+fn f0(library: &Library, name: &str) -> [f64; 3] {
+    let ior = library.ior(name, Path::new("")).unwrap();
+    let (observer, d65) = (observer(library), light(library, "D65"));
+    let points: Vec<_> = (360..=830)
+        .map(|nm| {
+            let nm = f64::from(nm);
+            let (n, k) = ior.at(nm);
+            (nm, ((n - 1.0) * (n - 1.0) + k * k) / ((n + 1.0) * (n + 1.0) + k * k))
+        })
+        .collect();
+    let reflectance = Spectrum::Table(Table::from_points(&points, Outside::Hold));
+    let y = tristimulus_1nm(&[&d65], &observer)[1];
+    let xyz = tristimulus_1nm(&[&d65, &reflectance], &observer).map(|value| value / y);
+    let white = white_xyz_1nm(&d65, &observer).unwrap();
+    let space = RgbSpace::Srgb;
+    space.rgb_from_xyz().apply(bradford(white, space.white_xyz()).apply(xyz))
+}
+
+#[test]
+fn reference_colours_of_metals_and_diamond() {
+    let library = library();
+    let mut names = Vec::new();
+    for line in include_str!("data/f0_srgb.csv").lines().skip(1) {
+        let [name, r, g, b] = line.split(',').collect::<Vec<_>>().try_into().unwrap();
+        let expected = [r, g, b].map(|value| value.parse().unwrap());
+        let rgb = f0(&library, name);
+        // The fixture's tables are the database's float32, ours the decimals behind them.
+        assert!(far_apart(rgb, expected) < 2e-7, "{name}: {rgb:?} against {expected:?}");
+        names.push(name);
+    }
+    assert!(names.starts_with(&["Au/olmon-2012-evaporated", "Ag/yang-2015", "C/peter-1923"]));
+}
+
+#[test]
+fn whites_of_the_standard_illuminants() {
+    let library = library();
+    let observer = observer(&library);
+    // CIE 15, table T.3: chromaticities for the 2° observer.
+    for (name, x, y) in
+        [("A", 0.44758, 0.40745), ("D50", 0.34567, 0.35851), ("D65", 0.31272, 0.32903), ("E", 1.0 / 3.0, 1.0 / 3.0)]
+    {
+        let xyz = white_xyz(&light(&library, name), &observer).unwrap();
+        let sum: f64 = xyz.iter().sum();
+        assert!((xyz[0] / sum - x).abs() < 5e-5 && (xyz[1] / sum - y).abs() < 5e-5, "{name}: {xyz:?}");
+        let rectangles = white_xyz_1nm(&light(&library, name), &observer).unwrap();
+        assert!(far_apart(xyz, rectangles) < 1e-4, "{name}: {xyz:?} {rectangles:?}");
+    }
+    assert!(white_xyz(&Spectrum::Constant(0.0), &observer).is_err());
+    let line = Spectrum::Lines(vec![Line { nm: 555.0, power: 1.0 }]);
+    assert!((luminance(&line, &observer) - 683.0).abs() < 0.1);
+}
+
+#[test]
+fn daylight_follows_the_table_and_an_independent_evaluation() {
+    let library = library();
+    let table = light(&library, "D65");
+    let d65 = Daylight::new(6500.0 * 1.4388 / 1.438).unwrap();
+    for nm in 300..=780 {
+        let nm = f64::from(nm);
+        assert!((d65.at(nm) - table.at(nm)).abs() < 6e-3, "{nm} nm: {} {}", d65.at(nm), table.at(nm));
+    }
+    let mut lines = include_str!("data/daylight.csv").lines();
+    let series: Vec<_> = lines
+        .next()
+        .unwrap()
+        .split(',')
+        .skip(1)
+        .map(|kelvin| Daylight::new(kelvin.parse().unwrap()).unwrap())
+        .collect();
+    for line in lines {
+        let row: Vec<f64> = line.split(',').map(|number| number.parse().unwrap()).collect();
+        for (daylight, expected) in series.iter().zip(&row[1..]) {
+            assert!(
+                (daylight.at(row[0]) - expected).abs() < 1e-6,
+                "{} K {line}: {}",
+                daylight.kelvin(),
+                daylight.at(row[0])
+            );
+        }
+    }
+}
+
+/// Largest relative error of X, Y, Z by the nodes.
+fn node_error(nodes: &Nodes, light: &Spectrum, observer: &ColorMatching) -> f64 {
+    let exact = tristimulus(&[light], observer);
+    let ours = nodes.tristimulus(light, observer);
+    (0..3).map(|i| (ours[i] - exact[i]).abs() / exact[i].abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn nodes_are_a_quadrature() {
+    let library = library();
+    let observer = observer(&library);
+    let nodes = Nodes::new(&Density::visible());
+    for name in library.names(spectrel::spectrum::Quantity::Illuminant) {
+        let error = node_error(&nodes, &light(&library, &name), &observer);
+        let smooth = ["a", "d50", "d65", "e", "d55", "d75"].contains(&name.as_str());
+        eprintln!("{name}: {error:.1e}");
+        assert!(error < if smooth { 1e-6 } else { 1e-5 }, "{name}: {error:e}");
+    }
+    let mercury = [404.656, 435.833, 546.074, 576.96, 579.066];
+    let lines = mercury.map(|nm| Line { nm, power: 100.0 });
+    let lamp = Spectrum::Sum(vec![light(&library, "FL2"), Spectrum::Lines(lines.to_vec())]);
+    let error = node_error(&Nodes::new(&Density::with_lines(mercury)), &lamp, &observer);
+    eprintln!("FL2 with mercury lines: {error:.1e}");
+    assert!(error < 2e-5, "{error:e}");
+}
+
+#[test]
+fn sets_estimate_the_luminance_in_candela() {
+    let library = library();
+    let observer = observer(&library);
+    let nodes = Nodes::new(&Density::visible());
+    let lamp = Spectrum::Blackbody { kelvin: 2856.0 };
+    let (values, weights) = (nodes.tabulate_sets::<8>(&lamp), nodes.observer_sets::<8>(&observer));
+    let estimate: f64 =
+        values.iter().zip(&weights).map(|(value, [_, y, _])| f64::from((*value * *y).sum())).sum::<f64>()
+            / values.len() as f64;
+    assert!((estimate / luminance(&lamp, &observer) - 1.0).abs() < 1e-5);
+}
+
+#[test]
+fn wavelengths_follow_the_density() {
+    let density = Density::with_lines([546.074, 589.3]);
+    let nodes = Nodes::new(&density);
+    // Sets drawn uniformly show each node equally often; bin the nodes and compare with the density: χ² per bin.
+    let bins = 47;
+    let count = Nodes::set_count::<1>();
+    let mut seen = vec![0.0; bins];
+    (0..count).for_each(|i| seen[((nodes.wavelength_nm(i) - 360.0) / 10.0) as usize] += 1.0);
+    for (bin, seen) in seen.iter().enumerate() {
+        let low = 360.0 + 10.0 * bin as f64;
+        let expected = count as f64 * (density.cdf(low + 10.0) - density.cdf(low));
+        assert!((seen - expected).abs() <= 1.0, "{low} nm: {seen} nodes, {expected} expected");
+    }
+}
+
+#[test]
+fn colours_survive_the_way_to_a_reflectance_and_back() {
+    let library = library();
+    let upsampler = Upsampler::new(&library).unwrap();
+    let mut worst: f64 = 0.0;
+    for r in 0..=6 {
+        for g in 0..=6 {
+            for b in 0..=6 {
+                let rgb = [r, g, b].map(|i| 0.02 + 0.8 * f64::from(i) / 6.0);
+                let reflectance = upsampler.reflectance(rgb).unwrap();
+                let error = far_apart(upsampler.rgb(&reflectance), rgb);
+                worst = worst.max(error);
+                assert!((360..=830).all(|nm| (0.0..=1.0).contains(&reflectance.at(f64::from(nm)))), "{rgb:?}");
+                // What is far from the gamut's corners comes back.
+                let (low, high) = (rgb.into_iter().fold(1.0, f64::min), rgb.into_iter().fold(0.0, f64::max));
+                if low > 0.1 * high {
+                    assert!(error < 1e-6, "{rgb:?}: {error:e} {reflectance:?}");
+                }
+            }
+        }
+    }
+    eprintln!("worst round trip: {worst:.1e}");
+    assert!(worst < 0.05, "{worst}");
+    for rgb in [[0.0; 3], [1.0; 3], [0.18; 3]] {
+        assert!(far_apart(upsampler.rgb(&upsampler.reflectance(rgb).unwrap()), rgb) < 1e-12);
+    }
+    // The samples that the fit uses are as good as the exact integral, even for the steep curves at the corners.
+    let (observer, d65) = (observer(&library), light(&library, "D65"));
+    let space = RgbSpace::Srgb;
+    let adapt = bradford(white_xyz(&d65, &observer).unwrap(), space.white_xyz());
+    let y = tristimulus(&[&d65], &observer)[1];
+    for corner in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 0.0], [0.0, 1.0, 1.0], [1.0, 0.0, 1.0]]
+    {
+        let back = upsampler.rgb(&upsampler.reflectance(corner).unwrap());
+        assert!(far_apart(back, corner) < 1e-6, "{corner:?} {back:?}");
+        let exact = tristimulus(&[&d65, &upsampler.reflectance(corner).unwrap()], &observer).map(|value| value / y);
+        let exact = space.rgb_from_xyz().apply(adapt.apply(exact));
+        assert!(far_apart(exact, corner) < 1e-4, "{corner:?} {exact:?}");
+    }
+    assert!(upsampler.reflectance([1.1, 0.0, 0.0]).is_err() && upsampler.reflectance([f64::NAN, 0.0, 0.0]).is_err());
+}
