@@ -44,8 +44,8 @@ fn exact_by_casting(bencher: Bencher) {
             if !xyz.iter().all(|c| c.is_finite()) {
                 continue;
             }
-            for channel in 0..3 {
-                let x = f64::from(xyz[channel]);
+            for (channel, x) in xyz.iter().enumerate() {
+                let x = f64::from(*x);
                 pixel.0[channel] = pixel.0[channel].wrapping_add((x * 18_446_744_073_709_551_616.0) as i128);
                 pixel.1[channel] = pixel.1[channel].saturating_add((x * x * 281_474_976_710_656.0) as u128);
             }
@@ -65,8 +65,8 @@ fn sums_in_f64(bencher: Bencher) {
             if !xyz.iter().all(|c| c.is_finite()) {
                 continue;
             }
-            for channel in 0..3 {
-                let x = f64::from(xyz[channel]);
+            for (channel, x) in xyz.iter().enumerate() {
+                let x = f64::from(*x);
                 pixel.0[channel] += x;
                 pixel.1[channel] += x * x;
             }

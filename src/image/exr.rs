@@ -76,8 +76,8 @@ impl Attributes {
             ExrSpace::Rgb => xy.white,
             ExrSpace::Xyz => chromaticity(developed.white),
         };
-        (int(width)?, int(height)?);
-        let mut image = ImageAttributes::new(IntegerBounds::from_dimensions((width as usize, height as usize)));
+        let display = Vec2(int(width)? as usize, int(height)? as usize);
+        let mut image = ImageAttributes::new(IntegerBounds::from_dimensions(display));
         image.chromaticities = Some(xy);
         let layer = LayerAttributes {
             layer_position: Vec2(int(window.x0)?, int(window.y0)?),
