@@ -3,7 +3,7 @@
 //! Nothing is clipped here: RGB may be above 1 or negative, and the report counts where. Files that cannot hold such
 //! colours map them when they are written ([`Developed::display`]).
 
-use super::{Exposure, Film, FilmError, Gamut, GamutReport, Window};
+use super::{Exposure, Film, FilmError, Gamut, GamutReport, Pixel, Window};
 use crate::spectrum::{Matrix3, RgbSpace, Xyz, bradford};
 
 /// How to develop a film.
@@ -77,14 +77,14 @@ impl Develop {
 impl Film {
     /// Develops the film.
     pub fn develop(&self, develop: &Develop) -> Result<Developed, FilmError> {
-        let ev = develop.exposure.ev(self.pixels().iter().map(|p| p.mean()[1]))?;
+        let means: Vec<Xyz> = self.pixels().iter().map(Pixel::mean).collect();
+        let ev = develop.exposure.ev(means.iter().map(|xyz| xyz[1]))?;
         let matrix = develop.matrix(ev)?;
-        let means = || self.pixels().iter().map(|p| p.mean());
-        let rgb: Vec<_> = means().map(|xyz| to_f32(matrix.apply(xyz))).collect();
+        let rgb: Vec<_> = means.iter().map(|xyz| to_f32(matrix.apply(*xyz))).collect();
         Ok(Developed {
             image: self.image(),
             window: self.window(),
-            xyz: means().map(to_f32).collect(),
+            xyz: means.into_iter().map(to_f32).collect(),
             ev,
             white: develop.normalised_white()?,
             space: develop.space,

@@ -26,6 +26,10 @@ use crate::film::Developed;
 use crate::spectrum::{RgbSpace, Xyz};
 
 /// Lossless ZIP of 16 lines; lines in order, whatever thread compressed them first.
+///
+/// A megapixel of shading with 5 % noise in every pixel, the worst case (two cores; MB and ms, f32 and half): ZIP of 16
+/// lines 11.9 and 3.5 in 207 and 122, PIZ 10.8 and 3.1 in 865 and 96, none 12.6 and 6.3 in 12 and 29. Noise in the
+/// low bits of f32 hardly packs, but black backgrounds do, and every reader knows ZIP. Small files want `half`.
 const ENCODING: Encoding =
     Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
 
@@ -72,8 +76,8 @@ impl Attributes {
             ExrSpace::Rgb => xy.white,
             ExrSpace::Xyz => chromaticity(developed.white),
         };
-        (int(width)?, int(height)?);
-        let mut image = ImageAttributes::new(IntegerBounds::from_dimensions((width as usize, height as usize)));
+        let display = Vec2(int(width)? as usize, int(height)? as usize);
+        let mut image = ImageAttributes::new(IntegerBounds::from_dimensions(display));
         image.chromaticities = Some(xy);
         let layer = LayerAttributes {
             layer_position: Vec2(int(window.x0)?, int(window.y0)?),
