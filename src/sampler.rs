@@ -63,18 +63,18 @@ impl Sampler {
 
     /// Uniform in [0, 1), a multiple of 2⁻²⁴.
     #[inline]
-    pub fn next(&mut self) -> f32 {
+    pub fn uniform(&mut self) -> f32 {
         (self.bits() >> 8) as f32 * (1.0 / 16_777_216.0)
     }
 
     #[inline]
-    pub fn next_2d(&mut self) -> [f32; 2] {
-        [self.next(), self.next()]
+    pub fn uniform_2d(&mut self) -> [f32; 2] {
+        [self.uniform(), self.uniform()]
     }
 
     /// One of `sets` equally likely numbers, stratified over a pixel's samples. `sets` is a power of two.
     #[inline]
-    pub fn next_set(&mut self, sets: u32) -> u32 {
+    pub fn set(&mut self, sets: u32) -> u32 {
         ((u64::from(self.bits()) * u64::from(sets)) >> 32) as u32
     }
 
@@ -100,7 +100,7 @@ mod tests {
         for first in [0u64, 256, 4096 * 3 + 512] {
             let mut seen = [0; 256];
             for index in first..first + 256 {
-                seen[Sampler::new(Kind::Sobol, 9, PIXEL, index).next_set(256) as usize] += 1;
+                seen[Sampler::new(Kind::Sobol, 9, PIXEL, index).set(256) as usize] += 1;
             }
             assert!(seen.iter().all(|&count| count == 1), "block at {first}");
         }
@@ -111,7 +111,7 @@ mod tests {
         let mut cells = [0; 256];
         for index in 0..256 {
             let mut sampler = Sampler::new(Kind::Sobol, 1, PIXEL, index);
-            let [u, v] = sampler.next_2d();
+            let [u, v] = sampler.uniform_2d();
             cells[(u * 16.0) as usize * 16 + (v * 16.0) as usize] += 1;
         }
         assert!(cells.iter().all(|&count| count == 1), "the first two Sobol dimensions are a (0, 8, 2)-net");
@@ -124,8 +124,10 @@ mod tests {
                 let mean = (0..4096u64)
                     .map(|index| {
                         let mut sampler = Sampler::new(kind, 3, PIXEL, index);
-                        (0..dimension).for_each(|_| drop(sampler.next()));
-                        f64::from(sampler.next())
+                        (0..dimension).for_each(|_| {
+                            sampler.uniform();
+                        });
+                        f64::from(sampler.uniform())
                     })
                     .sum::<f64>()
                     / 4096.0;
@@ -137,7 +139,7 @@ mod tests {
 
     #[test]
     fn pixels_and_seeds_differ_and_repeats_agree() {
-        let first = |seed, pixel| Sampler::new(Kind::Sobol, seed, pixel, 0).next();
+        let first = |seed, pixel| Sampler::new(Kind::Sobol, seed, pixel, 0).uniform();
         assert_eq!(first(1, [0, 0]), first(1, [0, 0]));
         let distinct: std::collections::BTreeSet<u32> =
             (0..64).flat_map(|i| [first(i, [3, 3]).to_bits(), first(1, [i as u32, 8]).to_bits()]).collect();

@@ -31,7 +31,7 @@ impl Kernel<'_> {
         let normal = if entering { hit.normal } else { -hit.normal };
         let cos_theta_i = (-path.ray.direction.dot(normal)).clamp(0.0, 1.0);
         let boundary = model.dielectric(&n1, &n2, &Lanes::splat(cos_theta_i));
-        let choice = choose(&path.throughput, &boundary.r, sampler.next());
+        let choice = choose(&path.throughput, &boundary.r, sampler.uniform());
         path.throughput *= choice.weight;
         path.pdf = f32::INFINITY;
         if choice.reflect {
@@ -43,7 +43,8 @@ impl Kernel<'_> {
             false => path.media.leave(medium),
         }
         let parts = N > 1 && (self.scene.medium(from).dispersive || self.scene.medium(to).dispersive);
-        if !parts && !(N == 1 && inside == Inside::Alone && entering) {
+        let into_stone = entering && inside == Inside::Alone && (parts || N == 1);
+        if !parts && !into_stone {
             let direction = refract(path.ray.direction, normal, n1[0] / n2[0], cos_theta_i, boundary.cos_theta_t[0]);
             path.ray = Ray::leaving(hit, hit.side.opposite(), direction);
             return Outcome::GoesOn;
@@ -55,7 +56,7 @@ impl Kernel<'_> {
             &Lanes::splat(cos_theta_i),
             &boundary.cos_theta_t,
         );
-        if entering && inside == Inside::Alone {
+        if into_stone {
             return self.through_stone(&Entry { hit, directions, interface }, path, sampler, radiance);
         }
         for lane in 0..N {

@@ -65,8 +65,8 @@ impl<'a> Kernel<'a> {
     fn sample<const N: usize>(&self, pixel: [u32; 2], index: u64) -> [f32; 3] {
         let settings = &self.scene.settings;
         let mut sampler = Sampler::new(self.sampler, settings.seed, pixel, index);
-        let offset = sampler.next_set(self.tables.sets()) * N as u32;
-        let [dx, dy] = self.scene.filter.sample(sampler.next_2d());
+        let offset = sampler.set(self.tables.sets()) * N as u32;
+        let [dx, dy] = self.scene.filter.sample(sampler.uniform_2d());
         let ray = self.scene.camera.ray(pixel[0] as f32 + 0.5 + dx, pixel[1] as f32 + 0.5 + dy);
         let radiance = self.radiance(Path::<N>::new(ray, offset), &mut sampler);
         self.observer.map(|weights| (radiance * self.tables.get(weights, offset)).sum())

@@ -62,12 +62,12 @@ impl<const N: usize> Path<N> {
         if survival >= 1.0 {
             return true;
         }
-        // Written so that a throughput of zero, or one that is not a number, ends the path.
-        if !(sampler.next() < survival) {
-            return false;
+        // A throughput of zero, or one that is not a number, ends the path.
+        let survives = sampler.uniform() < survival;
+        if survives {
+            self.throughput *= 1.0 / survival;
         }
-        self.throughput *= 1.0 / survival;
-        true
+        survives
     }
 }
 

@@ -32,7 +32,7 @@ impl Kernel<'_> {
         if self.needs.light_sampling && !bsdf.is_delta() {
             *radiance += path.throughput * self.direct(bsdf, &frame, wo, path, hit, sampler);
         }
-        let Some(sample) = bsdf.sample(wo, sampler.next_2d()) else { return Outcome::Ended };
+        let Some(sample) = bsdf.sample(wo, sampler.uniform_2d()) else { return Outcome::Ended };
         path.throughput *= sample.weight;
         path.pdf = if sample.delta { f32::INFINITY } else { sample.pdf };
         path.ray = Ray::leaving(hit, hit.side, frame.to_world(sample.wi));
@@ -50,7 +50,7 @@ impl Kernel<'_> {
         hit: &Hit,
         sampler: &mut Sampler,
     ) -> Lanes<N> {
-        let (choice, u) = (sampler.next(), sampler.next_2d());
+        let (choice, u) = (sampler.uniform(), sampler.uniform_2d());
         let world = &self.scene.world;
         let Some(light) = self.scene.lights.sample(world, hit.point, choice, u) else { return Lanes::ZERO };
         let wi = frame.to_local(light.direction);

@@ -48,7 +48,7 @@ impl Kernel<'_> {
             let normals = Directions::from_fn(|lane| -solid.normal(exits.facet[lane]));
             let cos_theta_i = directions.dot(&normals).map(|cos| (-cos).clamp(0.0, 1.0));
             let boundary = model.dielectric(&inside, &outside, &cos_theta_i);
-            let choice = choose(&path.throughput, &boundary.r, sampler.next());
+            let choice = choose(&path.throughput, &boundary.r, sampler.uniform());
             path.throughput *= choice.weight;
             path.depth += 1;
             if !choice.reflect {
@@ -75,10 +75,10 @@ impl Kernel<'_> {
 
 #[inline]
 fn advance<const N: usize>(origins: &mut Points<N>, directions: &Directions<N>, t: &[f32; N]) {
-    for lane in 0..N {
-        origins.x[lane] += directions.x[lane] * t[lane];
-        origins.y[lane] += directions.y[lane] * t[lane];
-        origins.z[lane] += directions.z[lane] * t[lane];
+    for (lane, t) in t.iter().enumerate() {
+        origins.x[lane] += directions.x[lane] * t;
+        origins.y[lane] += directions.y[lane] * t;
+        origins.z[lane] += directions.z[lane] * t;
     }
 }
 
