@@ -98,6 +98,9 @@ impl Convex {
     /// finite gets t = 0 and facet 0. Among facets at the same distance the first wins. Four rays and multiples of four
     /// are fastest.
     ///
+    /// Planes come in the order of their distance from the centre. Once every ray has an exit nearer to the centre than all
+    /// planes to come, none of these can cut it short: most rays in a brilliant never meet the planes of its girdle.
+    ///
     /// The exit is the plane with the largest rate / room, which needs neither a test of the sign nor a division by zero
     /// to be minded. Measured on the brilliant of 89 planes, eight lanes, SSE2, ns a ray:
     /// this 51; planes stored once and spread over the vector on use 58; and then the least room / rate with a test that
@@ -112,6 +115,9 @@ impl Convex {
         let mut nearness = [0.0f32; N];
         let mut facet = [0u32; N];
         for (number, Spread { x, y, z, offset }) in (0u32..).zip(&self.spread) {
+            if number >= FIRST_CHECK && number.is_multiple_of(CHECK_EVERY) && within(&o, d, &nearness, offset[0]) {
+                break;
+            }
             for group in 0..N / VECTOR {
                 for k in 0..VECTOR {
                     let lane = VECTOR * group + k;
@@ -124,6 +130,7 @@ impl Convex {
             }
         }
         let mut t = nearness.map(distance);
+        facet = facet.map(|plane| self.facet_of(plane));
         for lane in N / VECTOR * VECTOR..N {
             (t[lane], facet[lane]) = self.exit_one(origins.get(lane), directions.get(lane));
         }
@@ -136,6 +143,13 @@ impl Convex {
         let mut nearness = [0.0f32; BLOCK];
         let mut blocks = [0u32; BLOCK];
         for (number, block) in self.blocks.iter().enumerate() {
+            let planes = (number * BLOCK) as u32;
+            if planes >= FIRST_CHECK && planes.is_multiple_of(CHECK_EVERY) {
+                let nearest = nearness.iter().fold(0.0, |most: f32, &near| if near > most { near } else { most });
+                if within(&Points::<1>::splat(o), &Points::splat(d), &[nearest], block.offset[0]) {
+                    break;
+                }
+            }
             for k in 0..BLOCK {
                 let rate = block.x[k] * d.x + block.y[k] * d.y + block.z[k] * d.z;
                 let room = block.offset[k] - (block.x[k] * o.x + block.y[k] * o.y + block.z[k] * o.z);
@@ -151,8 +165,33 @@ impl Convex {
                 best = (nearness[k], facet);
             }
         }
-        (distance(best.0), best.1)
+        (distance(best.0), self.facet_of(best.1))
     }
+
+    /// The facet of a plane in the order of `spread`.
+    #[inline]
+    fn facet_of(&self, plane: u32) -> u32 {
+        self.order.get(plane as usize).copied().unwrap_or(0)
+    }
+}
+
+/// Planes met before the first look whether the rest can be left out, and between one look and the next: a look costs as
+/// much as three planes.
+const FIRST_CHECK: u32 = 48;
+const CHECK_EVERY: u32 = 16;
+
+/// Whether all rays have an exit nearer to the centre than `offset`, by more than rounding: origins are from the centre.
+#[inline]
+fn within<const N: usize>(o: &Points<N>, d: &Points<N>, nearness: &[f32; N], offset: f32) -> bool {
+    let mut farthest = 0.0f32;
+    for lane in 0..N {
+        let t = 1.0 / nearness[lane];
+        let (x, y, z) = (o.x[lane] + d.x[lane] * t, o.y[lane] + d.y[lane] * t, o.z[lane] + d.z[lane] * t);
+        let squared = x * x + y * y + z * z;
+        // Infinite or no number at all where there is no exit yet.
+        farthest = if squared <= farthest { farthest } else { squared };
+    }
+    farthest < offset * offset * (1.0 - 1e-5)
 }
 
 /// From the largest rate / room back to a distance.

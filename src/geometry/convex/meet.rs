@@ -70,7 +70,8 @@ impl Convex {
             last = if leave[k] < last { leave[k] } else { last };
         }
         let (t, facet) = (best.0.max(0.0), best.1);
-        if !(t <= last && facet < self.facets.len() as u32) {
+        let facet = *self.order.get(facet as usize)?;
+        if !(t <= last) {
             return None;
         }
         Some(Crossing { t, slack: self.slack(error, t, facet, d), side: Side::Outside, facet })

@@ -38,8 +38,11 @@ pub struct Convex {
     center: Vec3,
     /// Largest distance of a vertex from the centre.
     radius: f32,
+    /// The facets' planes twice over, as one ray and as several like them, the nearest to the centre first.
     blocks: Vec<Block>,
     spread: Vec<Spread>,
+    /// The facet of each plane of `blocks` and `spread`.
+    order: Vec<u32>,
     facets: Vec<Facet>,
     vertices: Vec<Vec3>,
     edges: Vec<[u32; 2]>,
@@ -91,8 +94,11 @@ impl Convex {
                 }
             })
             .collect();
+        let mut order: Vec<u32> = (0..facets.len() as u32).collect();
+        order.sort_by(|&a, &b| facets[a as usize].offset.total_cmp(&facets[b as usize].offset));
+        let sorted = || order.iter().map(|&facet| &facets[facet as usize]);
         let mut blocks = vec![Block::EMPTY; facets.len().div_ceil(BLOCK)];
-        for (i, facet) in facets.iter().enumerate() {
+        for (i, facet) in sorted().enumerate() {
             let (block, k) = (&mut blocks[i / BLOCK], i % BLOCK);
             (block.x[k], block.y[k], block.z[k], block.offset[k]) =
                 (facet.normal.x, facet.normal.y, facet.normal.z, facet.offset);
@@ -108,7 +114,8 @@ impl Convex {
             center,
             radius: radius as f32,
             blocks,
-            spread: facets.iter().map(|f| Spread::new(f.normal, f.offset)).collect(),
+            spread: sorted().map(|f| Spread::new(f.normal, f.offset)).collect(),
+            order,
             bounds: Bounds::of(vertices.iter().copied()),
             area: facets.iter().map(|f| f.area as f64).sum::<f64>() as f32,
             facets,
