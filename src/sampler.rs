@@ -37,6 +37,36 @@ fn hash(value: u32) -> u32 {
     (word >> 22) ^ word
 }
 
+/// The samples of one pixel.
+#[derive(Clone, Copy, Debug)]
+pub struct PixelSamples {
+    kind: Kind,
+    key: u32,
+}
+
+impl PixelSamples {
+    /// Those of the pixel at (`x`, `y`) of the full picture.
+    pub fn new(kind: Kind, seed: u64, [x, y]: [u32; 2]) -> Self {
+        let words = [seed as u32, (seed >> 32) as u32, x, y];
+        let key = words.iter().fold(0x9e37_79b9_u32, |key, &word| hash(key ^ hash(word ^ key.rotate_left(16))));
+        Self { kind, key }
+    }
+
+    /// The numbers of sample `index`.
+    #[inline]
+    pub fn sample(&self, index: u64) -> Sampler {
+        let block = index / u64::from(POINTS);
+        let key = self.key ^ if block == 0 { 0 } else { hash(block as u32 ^ hash((block >> 32) as u32)) };
+        let point = (index as u32 ^ hash(key ^ 0x5bd1_e995)) % POINTS;
+        let points = (self.kind == Kind::Sobol).then(|| {
+            let start = (point * DIMENSIONS) as usize;
+            &TABLE[start..start + DIMENSIONS as usize]
+        });
+        let stream = hash(key.wrapping_add(hash(index as u32 ^ 0x68bc_21eb)));
+        Sampler { points, key, stream, dimension: 0 }
+    }
+}
+
 /// The stream of numbers of one sample of one pixel. Copies give the same numbers again.
 #[derive(Clone, Copy, Debug)]
 pub struct Sampler {
@@ -47,20 +77,6 @@ pub struct Sampler {
 }
 
 impl Sampler {
-    /// The numbers of sample `index` in the pixel at (`x`, `y`) of the full picture.
-    pub fn new(kind: Kind, seed: u64, [x, y]: [u32; 2], index: u64) -> Self {
-        let block = index / u64::from(POINTS);
-        let words = [seed as u32, (seed >> 32) as u32, x, y, block as u32, (block >> 32) as u32];
-        let key = words.iter().fold(0x9e37_79b9_u32, |key, &word| hash(key ^ hash(word ^ key.rotate_left(16))));
-        let point = (index as u32 ^ hash(key ^ 0x5bd1_e995)) % POINTS;
-        let points = (kind == Kind::Sobol).then(|| {
-            let start = (point * DIMENSIONS) as usize;
-            &TABLE[start..start + DIMENSIONS as usize]
-        });
-        let stream = hash(key.wrapping_add(hash(index as u32 ^ 0x68bc_21eb)));
-        Self { points, key, stream, dimension: 0 }
-    }
-
     /// Uniform in [0, 1), a multiple of 2⁻²⁴.
     #[inline]
     pub fn uniform(&mut self) -> f32 {
@@ -100,7 +116,7 @@ mod tests {
         for first in [0u64, 256, 4096 * 3 + 512] {
             let mut seen = [0; 256];
             for index in first..first + 256 {
-                seen[Sampler::new(Kind::Sobol, 9, PIXEL, index).set(256) as usize] += 1;
+                seen[PixelSamples::new(Kind::Sobol, 9, PIXEL).sample(index).set(256) as usize] += 1;
             }
             assert!(seen.iter().all(|&count| count == 1), "block at {first}");
         }
@@ -110,7 +126,7 @@ mod tests {
     fn pairs_of_dimensions_are_stratified() {
         let mut cells = [0; 256];
         for index in 0..256 {
-            let mut sampler = Sampler::new(Kind::Sobol, 1, PIXEL, index);
+            let mut sampler = PixelSamples::new(Kind::Sobol, 1, PIXEL).sample(index);
             let [u, v] = sampler.uniform_2d();
             cells[(u * 16.0) as usize * 16 + (v * 16.0) as usize] += 1;
         }
@@ -123,7 +139,7 @@ mod tests {
             for dimension in [0, 1, 5, 63, 64, 200] {
                 let mean = (0..4096u64)
                     .map(|index| {
-                        let mut sampler = Sampler::new(kind, 3, PIXEL, index);
+                        let mut sampler = PixelSamples::new(kind, 3, PIXEL).sample(index);
                         (0..dimension).for_each(|_| {
                             sampler.uniform();
                         });
@@ -139,7 +155,7 @@ mod tests {
 
     #[test]
     fn pixels_and_seeds_differ_and_repeats_agree() {
-        let first = |seed, pixel| Sampler::new(Kind::Sobol, seed, pixel, 0).uniform();
+        let first = |seed, pixel| PixelSamples::new(Kind::Sobol, seed, pixel).sample(0).uniform();
         assert_eq!(first(1, [0, 0]), first(1, [0, 0]));
         let distinct: std::collections::BTreeSet<u32> =
             (0..64).flat_map(|i| [first(i, [3, 3]).to_bits(), first(1, [i as u32, 8]).to_bits()]).collect();

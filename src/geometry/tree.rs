@@ -154,8 +154,12 @@ impl Tree {
     /// `t_max`; a negative one ends it.
     #[inline]
     pub fn visit(&self, ray: &BoxRay, t_max: f32, visit: impl FnMut(u32, f32) -> f32) {
+        // Clearing the stack costs as much as a node for every hundred entries.
+        const FEW: usize = 16;
         const USUAL: usize = 128;
-        if self.stack <= USUAL {
+        if self.stack <= FEW {
+            self.walk(ray, t_max, &mut [NOTHING; FEW], visit);
+        } else if self.stack <= USUAL {
             self.walk(ray, t_max, &mut [NOTHING; USUAL], visit);
         } else {
             self.walk(ray, t_max, &mut vec![NOTHING; self.stack], visit);

@@ -10,7 +10,7 @@ mod scatter;
 mod stone;
 
 use crate::film::{Film, Pixel};
-use crate::sampler::{self, Sampler};
+use crate::sampler::{self, PixelSamples, Sampler};
 use crate::scene::describe::SamplerName;
 use crate::scene::{Needs, Scene};
 use crate::spectrum::{LUMENS_PER_WATT, NODE_COUNT, Nodes, SpectrumId, Tables};
@@ -62,9 +62,7 @@ impl<'a> Kernel<'a> {
 
     /// XYZ in cd/m² of one sample of one pixel.
     #[inline]
-    fn sample<const N: usize>(&self, pixel: [u32; 2], index: u64) -> [f32; 3] {
-        let settings = &self.scene.settings;
-        let mut sampler = Sampler::new(self.sampler, settings.seed, pixel, index);
+    fn sample<const N: usize>(&self, pixel: [u32; 2], mut sampler: Sampler) -> [f32; 3] {
         let offset = sampler.set(self.tables.sets()) * N as u32;
         let [dx, dy] = self.scene.filter.sample(sampler.uniform_2d());
         let ray = self.scene.camera.ray(pixel[0] as f32 + 0.5 + dx, pixel[1] as f32 + 0.5 + dy);
@@ -74,8 +72,9 @@ impl<'a> Kernel<'a> {
 
     fn row<const N: usize>(&self, row: &mut [Pixel], [x0, y]: [u32; 2], samples: &Range<u64>) {
         for (pixel, x) in row.iter_mut().zip(x0..) {
+            let numbers = PixelSamples::new(self.sampler, self.scene.settings.seed, [x, y]);
             for index in samples.clone() {
-                pixel.add(self.sample::<N>([x, y], index));
+                pixel.add(self.sample::<N>([x, y], numbers.sample(index)));
             }
         }
     }

@@ -13,7 +13,7 @@ use super::{Toward, area_pdf, by_area};
 use crate::geometry::{Hit, Rectangle};
 
 /// Solid angle below which area serves as well, sr.
-const SMALL: f64 = 1e-6;
+const SMALL: f32 = 0.05;
 
 /// Cosine between the edges up to which a parallelogram counts as a rectangle: a few roundings of its edges.
 const RIGHT: f64 = 1e-6;
@@ -43,6 +43,9 @@ impl Spherical {
         if x.dot(y).abs() > RIGHT {
             return None;
         }
+        if rectangle.area() < SMALL * (rectangle.center() - reference).length_squared() {
+            return None;
+        }
         let d = rectangle.center().as_dvec3() - reference.as_dvec3();
         let normal = x.cross(y);
         let (z, z0) = if d.dot(normal) > 0.0 { (-normal, -d.dot(normal)) } else { (normal, d.dot(normal)) };
@@ -69,7 +72,7 @@ impl Spherical {
         let (first, last) = (times(corner(n0, n1), corner(n1, n2)), times(corner(n2, n3), corner(n3, n0)));
         let k = 2.0 * PI - turn(last);
         let solid_angle = turn(times(first, last));
-        (z0 < 0.0 && solid_angle > SMALL).then_some(Self {
+        (z0 < 0.0 && solid_angle > 1e-6).then_some(Self {
             x,
             y,
             z,
