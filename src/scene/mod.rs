@@ -4,7 +4,9 @@ pub mod describe;
 mod error;
 mod forms;
 mod needs;
+mod numbers;
 mod resolve;
+mod words;
 
 pub use error::{Place, SceneError, Text};
 pub use needs::{Decision, Needs};
