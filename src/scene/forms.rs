@@ -128,7 +128,8 @@ impl<'de> Forms<'de> for ExposureValue {
 }
 
 impl<'de> Forms<'de> for LightSpectrum {
-    const EXPECTED: &'static str = "an illuminant's name or file, or one of { blackbody = K }, { daylight = K }, { table = … } and { lines = … }";
+    const EXPECTED: &'static str =
+        "an illuminant's name or file, or one of { blackbody = K }, { daylight = K }, { table = … } and { lines = … }";
 
     fn name<E: Error>(name: &str) -> Result<Self, E> {
         Ok(Self::Name(name.to_owned()))

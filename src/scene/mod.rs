@@ -9,7 +9,7 @@ mod resolve;
 mod words;
 
 pub use error::{Place, SceneError, Text};
-pub use needs::{Decision, Needs};
+pub use needs::{Decision, Needs, listed};
 pub use resolve::{Overrides, resolve};
 
 use crate::camera::{Camera, Filter};
@@ -53,8 +53,15 @@ pub struct Object {
 pub enum Surface {
     /// What only shines.
     Black,
-    Diffuse { reflectance: SpectrumId },
-    Conductor { n: SpectrumId, k: SpectrumId, alpha: f32, model: FresnelModel },
+    Diffuse {
+        reflectance: SpectrumId,
+    },
+    Conductor {
+        n: SpectrumId,
+        k: SpectrumId,
+        alpha: f32,
+        model: FresnelModel,
+    },
     Dielectric(Interface),
 }
 

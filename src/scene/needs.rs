@@ -54,7 +54,8 @@ fn objects_with(scene: &Scene, holds: impl Fn(&Surface) -> bool) -> Vec<&str> {
     scene.objects.iter().filter(has).map(|object| object.name.as_str()).collect()
 }
 
-fn listed(names: &[&str]) -> String {
+/// Names in a sentence: the first few and how many more.
+pub fn listed(names: &[&str]) -> String {
     match names {
         [] => "nothing".into(),
         [one] => (*one).into(),
@@ -80,7 +81,9 @@ fn light_lines(scene: &Scene) -> Vec<f64> {
 fn wavelengths(lines: &[f64]) -> Decision {
     match lines.len() {
         0 => decision("emission lines", false, "no light has any: wavelengths follow the visible density"),
-        count => decision("emission lines", true, format!("{count} in the lights: half of the wavelengths lie around them")),
+        count => {
+            decision("emission lines", true, format!("{count} in the lights: half of the wavelengths lie around them"))
+        }
     }
 }
 
@@ -93,7 +96,11 @@ fn dispersion(scene: &Scene) -> Decision {
     };
     match objects_with(scene, disperses) {
         names if names.is_empty() => decision("dispersion", false, "no dielectric's index changes with wavelength"),
-        names => decision("dispersion", true, format!("the index changes with wavelength in {}: lanes part there", listed(&names))),
+        names => decision(
+            "dispersion",
+            true,
+            format!("the index changes with wavelength in {}: lanes part there", listed(&names)),
+        ),
     }
 }
 
@@ -113,7 +120,7 @@ fn absorption(scene: &Scene) -> Decision {
         scene.media.iter().filter(|medium| medium.absorption.is_some()).map(|medium| medium.name.as_str()).collect();
     match names.is_empty() {
         true => decision("absorption", false, "every medium is clear"),
-        false => decision("absorption", true, format!("{} absorbs along the path (Beer–Lambert)", listed(&names))),
+        false => decision("absorption", true, format!("along the path (Beer–Lambert) in {}", listed(&names))),
     }
 }
 
@@ -129,7 +136,7 @@ fn rough_metal(scene: &Scene) -> Decision {
     let rough = |surface: &Surface| matches!(surface, Surface::Conductor { alpha, .. } if *alpha > 0.0);
     match objects_with(scene, rough) {
         names if names.is_empty() => decision("microfacets", false, "no rough conductor"),
-        names => decision("microfacets", true, format!("{} is rough", listed(&names))),
+        names => decision("microfacets", true, format!("rough: {}", listed(&names))),
     }
 }
 
@@ -142,7 +149,10 @@ fn light_sampling(scene: &Scene) -> Decision {
     };
     match (shining, objects_with(scene, lit).is_empty()) {
         (0, _) => decision("light sampling", false, "no shape shines"),
-        (_, true) => decision("light sampling", false, "every surface is smooth: its one direction finds the light or not"),
+        (_, true) => {
+            decision("light sampling", false, "every surface is smooth: its one direction finds the light or not")
+        }
+        (1, false) => decision("light sampling", true, "one shape shines on surfaces that scatter"),
         (count, false) => decision("light sampling", true, format!("{count} shapes shine on surfaces that scatter")),
     }
 }
@@ -150,7 +160,11 @@ fn light_sampling(scene: &Scene) -> Decision {
 fn environment(scene: &Scene) -> Decision {
     match scene.lights.environment {
         Environment::Dark => decision("environment", false, "none"),
-        Environment::Constant(_) => decision("environment", true, "constant: found by the directions that surfaces choose"),
-        Environment::Gradient { .. } => decision("environment", true, "gradient: found by the directions that surfaces choose"),
+        Environment::Constant(_) => {
+            decision("environment", true, "constant: found by the directions that surfaces choose")
+        }
+        Environment::Gradient { .. } => {
+            decision("environment", true, "gradient: found by the directions that surfaces choose")
+        }
     }
 }

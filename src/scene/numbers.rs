@@ -79,8 +79,14 @@ impl<T: Checked> Visitor<'_> for NumberVisitor<T> {
     }
 
     fn visit_f64<E: Error>(self, value: f64) -> Result<T, E> {
-        T::checked(value).ok_or_else(|| E::custom(format!("expected {}, found {value:?}", T::EXPECTED)))
+        T::checked(value).ok_or_else(|| E::custom(format!("expected {}, found {}", T::EXPECTED, short(value))))
     }
+}
+
+/// A number in its shortest form: 0, -1.5, 1e-60, NaN.
+pub fn short(value: f64) -> String {
+    let text = format!("{value:?}");
+    text.strip_suffix(".0").unwrap_or(&text).to_owned()
 }
 
 struct ListVisitor<T, const N: usize>(PhantomData<T>);

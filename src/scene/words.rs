@@ -10,6 +10,9 @@ pub fn plain(message: &str) -> String {
         let what = if message.starts_with("unknown field") { "key" } else { "name" };
         return format!("unknown {what} `{unknown}`; known here: `{}`", known.join("`, `"));
     }
+    if message == "invalid type: map, expected enum" {
+        return "this table is empty: it must say one kind".to_owned();
+    }
     if let Some(rest) = message.strip_prefix("invalid type: ").or_else(|| message.strip_prefix("invalid value: "))
         && let Some((found, expected)) = rest.split_once(", expected ")
     {
@@ -52,7 +55,6 @@ fn plain_expected(expected: &str) -> &str {
         "a boolean" => "true or false",
         "a sequence" => "a list",
         "a map" => "a table",
-        "enum" | "map with a single key" => "a kind",
         _ if expected.starts_with("struct ") => "a table",
         other => other,
     }
@@ -77,7 +79,10 @@ mod tests {
     #[test]
     fn jargon_becomes_english() {
         for (jargon, english) in [
-            ("invalid type: string \"four\", expected u32", "expected a whole number from 0 to 4294967295, found the text \"four\""),
+            (
+                "invalid type: string \"four\", expected u32",
+                "expected a whole number from 0 to 4294967295, found the text \"four\"",
+            ),
             ("invalid value: integer `-4`, expected u64", "expected a whole number, not negative, found -4"),
             ("invalid type: floating point `4.5`, expected struct Emission", "expected a table, found 4.5"),
             ("invalid type: map, expected f64", "expected a number, found a table"),

@@ -53,7 +53,9 @@ impl Resolver<'_> {
         let spectrum = spectrum.scaled(factor);
         let luminance = luminance(&spectrum, &self.observer_1931);
         if !(luminance <= BRIGHTEST) {
-            let message = format!("this light has {luminance:.2e} cd/m²: it can have up to {BRIGHTEST:e} (the sun's disc has 1.6e9)");
+            let message = format!(
+                "this light has {luminance:.2e} cd/m²: it can have up to {BRIGHTEST:e} (the sun's disc has 1.6e9)"
+            );
             return Err(self.text.error(&span, message));
         }
         Ok(Resolved { id: self.spectra.add(spectrum), luminance })
@@ -68,7 +70,8 @@ impl Resolver<'_> {
     ) -> Result<(Spectrum, bool), SceneError> {
         let own = match source {
             LightSpectrum::Name(name) => {
-                let found = self.library.illuminant(name, self.text.base()).map_err(|error| self.text.error(span, error))?;
+                let found =
+                    self.library.illuminant(name, self.text.base()).map_err(|error| self.text.error(span, error))?;
                 self.note_data(used_by, &found.about);
                 return Ok((found.spectrum.clone(), false));
             }
@@ -80,7 +83,8 @@ impl Resolver<'_> {
                 (Spectrum::Blackbody { kelvin: value }, true)
             }
             OwnLight::Daylight(kelvin) => {
-                let daylight = Daylight::new(*kelvin.get_ref()).map_err(|error| self.text.error(&kelvin.span(), error))?;
+                let daylight =
+                    Daylight::new(*kelvin.get_ref()).map_err(|error| self.text.error(&kelvin.span(), error))?;
                 (Spectrum::Daylight(daylight), false)
             }
             OwnLight::Table(table) => (self.own_table(table, span)?, false),
@@ -91,7 +95,8 @@ impl Resolver<'_> {
     fn own_table(&self, table: &describe::OwnTable, span: &Range<usize>) -> Result<Spectrum, SceneError> {
         let (nm, value) = (&table.wavelength_nm, &table.value);
         if nm.len() != value.len() || nm.len() < 2 {
-            let message = format!("{} wavelengths and {} values: a table needs at least two pairs", nm.len(), value.len());
+            let message =
+                format!("{} wavelengths and {} values: a table needs at least two pairs", nm.len(), value.len());
             return Err(self.text.error(span, message));
         }
         for number in nm {
@@ -101,7 +106,8 @@ impl Resolver<'_> {
             self.not_negative(number, "value")?;
         }
         if let Some([before, after]) = nm.array_windows().find(|[before, after]| before.get_ref() >= after.get_ref()) {
-            let message = format!("wavelengths must grow: {} nm is followed by {} nm", before.get_ref(), after.get_ref());
+            let message =
+                format!("wavelengths must grow: {} nm is followed by {} nm", before.get_ref(), after.get_ref());
             return Err(self.text.error(&after.span(), message));
         }
         let points: Vec<_> = nm.iter().zip(value).map(|(nm, value)| (*nm.get_ref(), *value.get_ref())).collect();
@@ -114,7 +120,8 @@ impl Resolver<'_> {
             if (LAMBDA_MIN_NM..=LAMBDA_MAX_NM).contains(&nm) && power > 0.0 {
                 return Ok(Line { nm, power });
             }
-            let message = format!("a line of power {power} at {nm} nm: lines lie in 360–830 nm and have a power above 0");
+            let message =
+                format!("a line of power {power} at {nm} nm: lines lie in 360–830 nm and have a power above 0");
             Err(self.text.error(&line.span(), message))
         };
         lines.iter().map(line).collect::<Result<_, _>>().map(Spectrum::Lines)
@@ -138,7 +145,9 @@ impl Resolver<'_> {
             return Err(self.text.error(span, message).help("give `luminance` in cd/m² or `radiance` in W m⁻² sr⁻¹"));
         };
         if let Some((other, second)) = given.next() {
-            return Err(self.text.error(&second.span(), format!("`{name}` and `{other}` both say how strong the light is")));
+            return Err(self
+                .text
+                .error(&second.span(), format!("`{name}` and `{other}` both say how strong the light is")));
         }
         let value = self.not_negative(number, name)?;
         if name == "scale" {

@@ -3,6 +3,7 @@
 use super::{Resolver, visible_nm};
 use crate::fresnel::FresnelModel;
 use crate::scene::describe::{self, AbsorptionSource, IndexSource, ReflectanceSource};
+use crate::scene::numbers::short;
 use crate::scene::{Inside, Interface, Medium, MediumId, SceneError, Surface, Text};
 use crate::spectrum::{Ior, Outside, Spectrum, SpectrumError, Table, Upsampler, nearest};
 use std::fmt::Display;
@@ -42,7 +43,8 @@ impl Resolver<'_> {
     pub fn outside(&mut self, name: &Spanned<String>) -> Result<(), SceneError> {
         let described = self.described(name)?;
         let Some(dielectric) = &described.material.dielectric else {
-            let message = format!("`{}` is no dielectric: what surrounds a scene must let light through", name.get_ref());
+            let message =
+                format!("`{}` is no dielectric: what surrounds a scene must let light through", name.get_ref());
             return Err(self.text.error(&name.span(), message));
         };
         self.media[0] = self.medium(&described, dielectric)?;
@@ -82,10 +84,9 @@ impl Resolver<'_> {
                 Ok(Surface::Dielectric(Interface { medium, model, inside: Inside::General }))
             }
             (None, None, Some(diffuse)) => self.diffuse(described, diffuse.get_ref()),
-            (None, None, None) => {
-                Err(text.error(span, format!("material `{}` is of no kind", described.name))
-                    .help("give it one of [conductor], [dielectric], [diffuse]"))
-            }
+            (None, None, None) => Err(text
+                .error(span, format!("material `{}` is of no kind", described.name))
+                .help("give it one of [conductor], [dielectric], [diffuse]")),
             _ => Err(text.error(span, format!("material `{}` is of more than one kind", described.name))),
         }
     }
@@ -130,7 +131,11 @@ impl Resolver<'_> {
         }
     }
 
-    fn medium(&mut self, described: &Described, dielectric: &Spanned<describe::Dielectric>) -> Result<Medium, SceneError> {
+    fn medium(
+        &mut self,
+        described: &Described,
+        dielectric: &Spanned<describe::Dielectric>,
+    ) -> Result<Medium, SceneError> {
         let source = &dielectric.get_ref().ior;
         let ior = self.ior(described, source)?;
         let absorption = match &dielectric.get_ref().absorption {
@@ -143,7 +148,8 @@ impl Resolver<'_> {
                 let metres = self.meters_per_unit.ok_or_else(|| self.needs_scale(described))?;
                 let per_unit = per_metre.scaled(metres);
                 if visible_nm().any(|nm| !(per_unit.at(nm) as f32).is_finite()) {
-                    let message = format!("`{}` absorbs more in one scene unit than can be computed with", described.name);
+                    let message =
+                        format!("`{}` absorbs more in one scene unit than can be computed with", described.name);
                     return Err(self.text.error(&described.asked_at, message).help("is `meters_per_unit` right?"));
                 }
                 Some(self.spectra.add(per_unit))
@@ -155,7 +161,9 @@ impl Resolver<'_> {
 
     fn needs_scale(&self, described: &Described) -> SceneError {
         let message = format!("`{}` absorbs light, so the scene must say how large it is", described.name);
-        self.text.error(&described.asked_at, message).help("add `meters_per_unit = …` at the top, 0.001 if the scene is in millimetres")
+        self.text
+            .error(&described.asked_at, message)
+            .help("add `meters_per_unit = …` at the top, 0.001 if the scene is in millimetres")
     }
 
     /// In m⁻¹; `None` where nothing is absorbed.
@@ -175,9 +183,10 @@ impl Resolver<'_> {
             &AbsorptionSource::PerMetre(value) if value.is_finite() && value >= 0.0 => {
                 Ok((value > 0.0).then_some(Spectrum::Constant(value)))
             }
-            AbsorptionSource::PerMetre(value) => {
-                Err(text.error(&source.span(), format!("an absorption coefficient of {value} 1/m: it must be finite and not negative")))
-            }
+            AbsorptionSource::PerMetre(value) => Err(text.error(
+                &source.span(),
+                format!("an absorption coefficient of {value} 1/m: it must be finite and not negative"),
+            )),
         }
     }
 
@@ -210,7 +219,9 @@ fn roughness(text: &Text, conductor: &describe::Conductor) -> Result<f64, SceneE
         (None, Some(r)) => (r, "perceptual_roughness"),
         (Some(_), Some(r)) => {
             let message = "`roughness` and `perceptual_roughness` both say how rough the surface is";
-            return Err(text.error(&r.span(), message).help("`roughness` is α itself; `perceptual_roughness` r means α = r²"));
+            return Err(text
+                .error(&r.span(), message)
+                .help("`roughness` is α itself; `perceptual_roughness` r means α = r²"));
         }
     };
     let value = *number.get_ref();
@@ -230,7 +241,8 @@ fn index_fault(ior: &Ior) -> Option<String> {
             (true, false) => ("k", k, K_RANGE),
         };
         let at = if is_constant(&ior.n) && is_constant(&ior.k) { String::new() } else { format!(" at {nm} nm") };
-        Some(format!("{name} is {value:?}{at}: it must lie between {:?} and {:?}", range.start(), range.end()))
+        let [value, low, high] = [value, *range.start(), *range.end()].map(short);
+        Some(format!("{name} is {value}{at}: it must lie between {low} and {high}"))
     })
 }
 

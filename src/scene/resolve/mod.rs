@@ -70,7 +70,8 @@ struct Resolver<'a> {
 impl Resolver<'_> {
     fn scene(mut self, file: &SceneFile, overrides: &Overrides) -> Result<Scene, SceneError> {
         let settings = self.settings(&file.render, overrides)?;
-        self.meters_per_unit = file.meters_per_unit.as_ref().map(|m| self.positive(m, "`meters_per_unit`")).transpose()?;
+        self.meters_per_unit =
+            file.meters_per_unit.as_ref().map(|m| self.positive(m, "`meters_per_unit`")).transpose()?;
         let vacuum = self.spectra.add(Spectrum::Constant(1.0));
         self.media.push(Medium { name: "vacuum".into(), n: vacuum, absorption: None, dispersive: false });
         file.outside.as_ref().map(|name| self.outside(name)).transpose()?;

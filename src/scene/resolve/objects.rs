@@ -22,7 +22,10 @@ impl Resolver<'_> {
                 None if object.emission.is_some() => self.black(),
                 None => {
                     let message = format!("{name} has neither a material nor an emission");
-                    return Err(self.text.error(&span, message).help("add `material = \"…\"`: `spectrel list materials` shows them"));
+                    return Err(self
+                        .text
+                        .error(&span, message)
+                        .help("add `material = \"…\"`: `spectrel list materials` shows them"));
                 }
             };
             if let Surface::Dielectric(_) = self.surfaces[surface as usize] {
@@ -48,7 +51,9 @@ impl Resolver<'_> {
             return Err(self.text.error(&object.shape.span(), message).help("use a thin `box` instead"));
         }
         match &object.emission {
-            Some(emission) => Err(self.text.error(&emission.span(), format!("{name} is a dielectric: it cannot shine"))),
+            Some(emission) => {
+                Err(self.text.error(&emission.span(), format!("{name} is a dielectric: it cannot shine")))
+            }
             None => Ok(()),
         }
     }

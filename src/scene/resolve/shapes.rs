@@ -6,23 +6,23 @@ use crate::scene::SceneError;
 use crate::scene::describe;
 use crate::scene::numbers::{Finite, Length};
 use glam::{Affine3A, DVec3, EulerRot, Quat, Vec3};
-use std::ops::Range;
 use toml::Spanned;
 
 impl Resolver<'_> {
     pub fn shape(&self, object: &describe::Object) -> Result<Shape, SceneError> {
-        let shape = build(object.shape.get_ref()).map_err(|error| self.text.error(&place(&error, &object.shape), error))?;
+        let shape = build(object.shape.get_ref()).map_err(|error| self.misshapen(error, &object.shape))?;
         let Some(transform) = &object.transform else { return Ok(shape) };
         let affine = affine(transform.get_ref());
         shape.transformed(&affine).map_err(|error| self.text.error(&transform.span(), error))
     }
-}
 
-/// Where the value stands that an error is about.
-fn place(error: &GeometryError, shape: &Spanned<describe::Shape>) -> Range<usize> {
-    match (error, shape.get_ref()) {
-        (GeometryError::BadPlane { index }, describe::Shape::Convex(convex)) => convex.planes[*index].span(),
-        _ => shape.span(),
+    fn misshapen(&self, error: GeometryError, shape: &Spanned<describe::Shape>) -> SceneError {
+        match (&error, shape.get_ref()) {
+            (GeometryError::BadPlane { index }, describe::Shape::Convex(convex)) => self
+                .text
+                .error(&convex.planes[*index].span(), "the normal of this plane, its first three numbers, is zero"),
+            _ => self.text.error(&shape.span(), error),
+        }
     }
 }
 
@@ -66,7 +66,11 @@ fn affine(transform: &describe::Transform) -> Affine3A {
     let [x, y, z] = transform.rotate.unwrap_or_default().values().map(|degrees| degrees.to_radians() as f32);
     // Extrinsic rotations about the fixed axes x, then y, then z.
     let rotation = Quat::from_euler(EulerRot::ZYX, z, y, x);
-    Affine3A::from_scale_rotation_translation(vector(scale), rotation, vector(transform.translate.unwrap_or_default().values()))
+    Affine3A::from_scale_rotation_translation(
+        vector(scale),
+        rotation,
+        vector(transform.translate.unwrap_or_default().values()),
+    )
 }
 
 fn half_space([x, y, z, offset]: [f64; 4]) -> Plane {
