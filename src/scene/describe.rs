@@ -142,7 +142,7 @@ pub enum ExposureValue {
 #[serde(rename_all = "kebab-case", remote = "Self")]
 pub enum Environment {
     Constant(Emission),
-    Gradient(Gradient),
+    Gradient(Box<Gradient>),
 }
 
 /// Radiance by direction: `nadir` straight down, `horizon` level, `zenith` straight up (+z), linear in the sine of the

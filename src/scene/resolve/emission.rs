@@ -52,7 +52,7 @@ impl Resolver<'_> {
         let factor = self.strength(emission, &spectrum, absolute, &span)?;
         let spectrum = spectrum.scaled(factor);
         let luminance = luminance(&spectrum, &self.observer_1931);
-        if !(luminance <= BRIGHTEST) {
+        if !(0.0..=BRIGHTEST).contains(&luminance) {
             let message = format!(
                 "this light has {luminance:.2e} cd/m²: it can have up to {BRIGHTEST:e} (the sun's disc has 1.6e9)"
             );

@@ -18,6 +18,7 @@ use crate::geometry::World;
 use crate::light::{Environment, Lights};
 use crate::spectrum::{Arena, ColorMatching, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Library, Observer, Spectrum, SpectrumId};
 use glam::{DVec3, Vec3};
+use objects::Objects;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use toml::Spanned;
@@ -75,7 +76,7 @@ impl Resolver<'_> {
         let vacuum = self.spectra.add(Spectrum::Constant(1.0));
         self.media.push(Medium { name: "vacuum".into(), n: vacuum, absorption: None, dispersive: false });
         file.outside.as_ref().map(|name| self.outside(name)).transpose()?;
-        let (objects, shapes, emitters) = self.objects(&file.objects)?;
+        let Objects { objects, shapes, emitters } = self.objects(&file.objects)?;
         let environment = match &file.environment {
             Some(environment) => self.environment(environment.get_ref())?,
             None => Environment::Dark,

@@ -7,42 +7,60 @@ use crate::scene::describe;
 use crate::scene::{Inside, Interface, Object, SceneError, Surface};
 use toml::Spanned;
 
+/// All objects of a scene, in the order of the file.
+#[derive(Default)]
+pub struct Objects {
+    pub objects: Vec<Object>,
+    pub shapes: Vec<Shape>,
+    pub emitters: Vec<Emitter>,
+}
+
 impl Resolver<'_> {
-    pub fn objects(
-        &mut self,
-        described: &[Spanned<describe::Object>],
-    ) -> Result<(Vec<Object>, Vec<Shape>, Vec<Emitter>), SceneError> {
-        let (mut objects, mut shapes, mut emitters) = (Vec::new(), Vec::new(), Vec::new());
+    pub fn objects(&mut self, described: &[Spanned<describe::Object>]) -> Result<Objects, SceneError> {
+        let mut all = Objects::default();
         for (index, described) in described.iter().enumerate() {
-            let (span, object) = (described.span(), described.get_ref());
+            let object = described.get_ref();
             let name = object.name.clone().unwrap_or_else(|| format!("object {}", index + 1));
             let shape = self.shape(object)?;
-            let surface = match &object.material {
-                Some(material) => self.material(material)?,
-                None if object.emission.is_some() => self.black(),
-                None => {
-                    let message = format!("{name} has neither a material nor an emission");
-                    return Err(self
-                        .text
-                        .error(&span, message)
-                        .help("add `material = \"…\"`: `spectrel list materials` shows them"));
-                }
-            };
+            let surface = self.surface_of(described, &name)?;
             if let Surface::Dielectric(_) = self.surfaces[surface as usize] {
                 self.check_dielectric(object, &shape, &name)?;
             }
             if let Some(emission) = &object.emission {
-                let light = self.emission(emission.get_ref(), &name)?;
-                let two_sided = emission.get_ref().two_sided && !shape.is_solid();
-                let power = light.luminance * f64::from(shape.area()) * if two_sided { 2.0 } else { 1.0 };
-                self.white_candidates.push((power, light.id));
-                emitters.push(Emitter { shape: ShapeId(index as u32), radiance: light.id, two_sided, power });
+                all.emitters.push(self.emitter(emission.get_ref(), &name, ShapeId(index as u32), &shape)?);
             }
             let material = object.material.as_ref().map_or("light", |material| material.get_ref()).to_owned();
-            objects.push(Object { name, material, surface });
-            shapes.push(shape);
+            all.objects.push(Object { name, material, surface });
+            all.shapes.push(shape);
         }
-        Ok((objects, shapes, emitters))
+        Ok(all)
+    }
+
+    fn surface_of(&mut self, described: &Spanned<describe::Object>, name: &str) -> Result<u32, SceneError> {
+        let object = described.get_ref();
+        match &object.material {
+            Some(material) => self.material(material),
+            None if object.emission.is_some() => Ok(self.black()),
+            None => {
+                let message = format!("{name} has neither a material nor an emission");
+                let error = self.text.error(&described.span(), message);
+                Err(error.help("add `material = \"…\"`: `spectrel list materials` shows them"))
+            }
+        }
+    }
+
+    fn emitter(
+        &mut self,
+        emission: &describe::Emission,
+        name: &str,
+        id: ShapeId,
+        shape: &Shape,
+    ) -> Result<Emitter, SceneError> {
+        let light = self.emission(emission, name)?;
+        let two_sided = emission.two_sided && !shape.is_solid();
+        let power = light.luminance * f64::from(shape.area()) * if two_sided { 2.0 } else { 1.0 };
+        self.white_candidates.push((power, light.id));
+        Ok(Emitter { shape: id, radiance: light.id, two_sided, power })
     }
 
     fn check_dielectric(&self, object: &describe::Object, shape: &Shape, name: &str) -> Result<(), SceneError> {
