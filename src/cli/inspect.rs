@@ -2,7 +2,8 @@
 
 use super::{SceneArgs, show};
 use crate::geometry::Shape;
-use crate::scene::{Decision, Interface, Needs, Overrides, Scene, SceneError, Surface, resolve};
+use crate::scene::describe::ExposureValue;
+use crate::scene::{Decision, Interface, MediumId, Needs, Overrides, Scene, SceneError, Surface, listed, resolve};
 use clap::Args;
 use serde::Serialize;
 
@@ -17,9 +18,18 @@ pub struct InspectArgs {
 
 #[derive(Serialize)]
 struct Report {
+    /// Pixels.
     width: u32,
     height: u32,
+    /// A pixel.
     samples: u32,
+    seed: u64,
+    /// `None`: automatic.
+    exposure_ev: Option<f64>,
+    white_balance: String,
+    observer: String,
+    outside: String,
+    /// How many objects shine.
     lights: usize,
     objects: Vec<ObjectReport>,
     physics: Vec<Decision>,
@@ -37,8 +47,8 @@ struct ObjectReport {
 
 #[derive(Serialize)]
 struct DataReport {
-    used_by: String,
     name: String,
+    used_by: Vec<String>,
     range_nm: Option<(f64, f64)>,
     covers_visible: bool,
     confidence: String,
@@ -47,10 +57,13 @@ struct DataReport {
     doi: Option<String>,
 }
 
+/// What data should cover, nm; beyond it the eye sees next to nothing.
+const VISIBLE_NM: (f64, f64) = (380.0, 780.0);
+
 pub fn run(args: &InspectArgs) -> Result<(), SceneError> {
     let library = args.scene.library.open()?;
     let scene = resolve(args.scene.read()?, &library, &Overrides::default())?;
-    let report = report(&scene, Needs::of(&scene).decisions);
+    let report = report(&scene);
     if args.json {
         show::answer(serde_json::to_string_pretty(&report).map_err(SceneError::new)?);
     } else {
@@ -59,33 +72,53 @@ pub fn run(args: &InspectArgs) -> Result<(), SceneError> {
     Ok(())
 }
 
-fn report(scene: &Scene, physics: Vec<Decision>) -> Report {
+fn report(scene: &Scene) -> Report {
     let objects = scene.objects.iter().zip(scene.world.shapes()).map(|(object, shape)| ObjectReport {
         name: object.name.clone(),
         shape: shape_kind(shape),
         material: object.material.clone(),
         kind: surface_kind(&scene.surfaces[object.surface as usize]),
     });
-    let data = scene.data.iter().map(|data| DataReport {
-        used_by: data.used_by.clone(),
-        name: data.about.name.clone(),
-        range_nm: data.about.range_nm,
-        covers_visible: data.about.covers_nm(380.0, 780.0),
-        confidence: data.about.confidence().to_string(),
-        authors: data.about.source.authors.clone(),
-        year: data.about.source.year,
-        doi: data.about.source.doi.clone(),
-    });
     Report {
         width: scene.settings.width,
         height: scene.settings.height,
         samples: scene.settings.samples,
+        seed: scene.settings.seed,
+        exposure_ev: match scene.picture.exposure {
+            ExposureValue::Auto => None,
+            ExposureValue::Ev(ev) => Some(ev),
+        },
+        white_balance: scene.picture.white_balance.clone(),
+        observer: scene.picture.observer.about.name.clone(),
+        outside: scene.medium(MediumId::OUTSIDE).name.clone(),
         lights: scene.lights.emitters().len(),
         objects: objects.collect(),
-        physics,
-        data: data.collect(),
+        physics: Needs::of(scene).decisions,
+        data: data(scene),
         warnings: scene.warnings.clone(),
     }
+}
+
+/// Every data set once, with all that use it.
+fn data(scene: &Scene) -> Vec<DataReport> {
+    let mut reports: Vec<DataReport> = Vec::new();
+    for data in &scene.data {
+        let about = &data.about;
+        match reports.iter_mut().find(|report| report.name == about.name && report.range_nm == about.range_nm) {
+            Some(report) => report.used_by.push(data.used_by.clone()),
+            None => reports.push(DataReport {
+                name: about.name.clone(),
+                used_by: vec![data.used_by.clone()],
+                range_nm: about.range_nm,
+                covers_visible: about.covers_nm(VISIBLE_NM.0, VISIBLE_NM.1),
+                confidence: about.confidence().to_string(),
+                authors: about.source.authors.clone(),
+                year: about.source.year,
+                doi: about.source.doi.clone(),
+            }),
+        }
+    }
+    reports
 }
 
 fn shape_kind(shape: &Shape) -> String {
@@ -108,41 +141,46 @@ fn surface_kind(surface: &Surface) -> String {
 }
 
 fn text(report: &Report) -> String {
-    let mut parts = vec![format!(
-        "{} × {} pixels, {} samples each; {} objects, {} of them shine",
-        report.width,
-        report.height,
-        report.samples,
-        report.objects.len(),
-        report.lights
-    )];
-    let objects: Vec<[String; 4]> = report
-        .objects
-        .iter()
-        .map(|o| [format!("  {}", o.name), o.shape.clone(), o.material.clone(), o.kind.clone()])
-        .collect();
-    parts.push(format!("Objects\n{}", show::columns(&objects)));
-    let physics: Vec<[String; 3]> = report
-        .physics
-        .iter()
-        .map(|d| [format!("  {}", d.part), if d.used { "yes" } else { "no" }.into(), d.reason.clone()])
-        .collect();
-    parts.push(format!("Physics\n{}", show::columns(&physics)));
-    let data: Vec<[String; 4]> = report.data.iter().map(data_row).collect();
-    parts.push(format!("Data\n{}", show::columns(&data)));
-    parts.extend((!report.warnings.is_empty()).then(|| format!("Warnings\n  {}", report.warnings.join("\n  "))));
+    let count = format!("Objects: {}, of which {} shine", report.objects.len(), report.lights);
+    let objects = report.objects.iter().map(|o| [&o.name, &o.shape, &o.material, &o.kind].map(String::clone));
+    let physics =
+        report.physics.iter().map(|d| [d.part, if d.used { "yes" } else { "no" }, &d.reason].map(str::to_owned));
+    let mut parts = vec![
+        show::section("Picture", &show::columns(&picture_rows(report))),
+        show::section(count, &show::columns(&objects.collect::<Vec<_>>())),
+        show::section("Physics", &show::columns(&physics.collect::<Vec<_>>())),
+        show::section("Data", &show::columns(&report.data.iter().map(data_row).collect::<Vec<_>>())),
+    ];
+    if !report.warnings.is_empty() {
+        parts.push(show::section("Warnings", &report.warnings.join("\n")));
+    }
     parts.join("\n\n")
 }
 
-fn data_row(data: &DataReport) -> [String; 4] {
-    let range = data.range_nm.map_or("everywhere".into(), |(first, last)| format!("{first}–{last} nm"));
-    let cover = if data.covers_visible { "" } else { ", does not cover 380–780 nm" };
-    let year = data.year.map_or(String::new(), |year| format!(" {year}"));
-    let first_author = data.authors.split([',', ';']).next().unwrap_or_default();
+fn picture_rows(report: &Report) -> Vec<[String; 2]> {
+    let size =
+        format!("{} × {} pixels, {} samples each, seed {}", report.width, report.height, report.samples, report.seed);
+    let exposure =
+        report.exposure_ev.map_or("automatic".into(), |ev| format!("{ev} EV: white is {:.1} cd/m²", ev.exp2()));
     [
-        format!("  {}", data.used_by),
+        ("size", &size),
+        ("exposure", &exposure),
+        ("white", &report.white_balance),
+        ("observer", &report.observer),
+        ("outside", &report.outside),
+    ]
+    .map(|(name, value)| [name.to_owned(), value.clone()])
+    .to_vec()
+}
+
+fn data_row(data: &DataReport) -> [String; 5] {
+    let gap = if data.covers_visible { "" } else { " (short of the visible)" };
+    let users: Vec<_> = data.used_by.iter().map(String::as_str).collect();
+    [
         data.name.clone(),
-        format!("{range}{cover}"),
-        format!("{first_author}{year}, confidence {}", data.confidence),
+        format!("{}{gap}", show::range_nm(data.range_nm)),
+        format!("confidence {}", data.confidence),
+        show::source(&data.authors, data.year),
+        format!("for {}", listed(&users)),
     ]
 }

@@ -10,6 +10,7 @@ use std::path::Path;
 
 #[derive(Debug, Args)]
 pub struct ListArgs {
+    /// What to list
     what: What,
     /// Print JSON
     #[arg(long)]
@@ -20,13 +21,16 @@ pub struct ListArgs {
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum What {
+    /// Names for `material = "…"`
     Materials,
+    /// Names for `ior`, `absorption` and `reflectance`, and the observers
     Spectra,
+    /// Names for `spectrum` and `white_balance`
     Illuminants,
 }
 
 /// A material or a data set, as much as its kind has.
-#[derive(Serialize)]
+#[derive(Clone, Serialize)]
 struct Entry {
     name: String,
     kind: String,
@@ -49,19 +53,17 @@ pub fn run(args: &ListArgs) -> Result<(), SceneError> {
     let library = args.library.open()?;
     let entries = match args.what {
         What::Materials => materials(&library)?,
-        What::Spectra => [Quantity::Ior, Quantity::Absorption, Quantity::Reflectance, Quantity::Observer]
-            .map(|quantity| data_sets(&library, quantity))
-            .into_iter()
-            .collect::<Result<Vec<_>, _>>()?
-            .into_iter()
-            .flatten()
-            .collect(),
+        What::Spectra => {
+            let quantities = [Quantity::Ior, Quantity::Absorption, Quantity::Reflectance, Quantity::Observer];
+            let sets = quantities.map(|quantity| data_sets(&library, quantity));
+            sets.into_iter().collect::<Result<Vec<_>, _>>()?.concat()
+        }
         What::Illuminants => data_sets(&library, Quantity::Illuminant)?,
     };
     if args.json {
         show::answer(serde_json::to_string_pretty(&entries).map_err(SceneError::new)?);
     } else {
-        show::answer(show::columns(&entries.iter().map(row).collect::<Vec<_>>()));
+        show::answer(text(args.what, &entries));
     }
     Ok(())
 }
@@ -134,12 +136,22 @@ fn material(library: &Library, name: &str) -> Result<Entry, SceneError> {
     })
 }
 
-fn row(entry: &Entry) -> [String; 4] {
-    let names = match entry.aliases.as_slice() {
-        [] => entry.name.clone(),
-        aliases => format!("{} ({})", entry.name, aliases.join(", ")),
-    };
-    let year = entry.year.map_or(String::new(), |year| format!(" {year}"));
-    let first_author = entry.authors.split([',', ';']).next().unwrap_or_default();
-    [names, entry.kind.clone(), entry.description.clone(), format!("{first_author}{year}")]
+fn text(what: What, entries: &[Entry]) -> String {
+    let source = |entry: &Entry| show::source(&entry.authors, entry.year);
+    let range = |entry: &Entry| show::range_nm(entry.range_nm);
+    match what {
+        What::Materials => {
+            let row =
+                |e: &Entry| [e.name.clone(), e.aliases.join(", "), e.kind.clone(), e.description.clone(), source(e)];
+            show::table(["Material", "Other names", "Kind", "Description", "Data from"], entries.iter().map(row))
+        }
+        What::Spectra => {
+            let row = |e: &Entry| [e.name.clone(), e.kind.clone(), range(e), e.description.clone(), source(e)];
+            show::table(["Spectrum", "Quantity", "Range", "Sample", "Source"], entries.iter().map(row))
+        }
+        What::Illuminants => {
+            let row = |e: &Entry| [e.name.clone(), range(e), e.description.clone(), source(e)];
+            show::table(["Illuminant", "Range", "Description", "Source"], entries.iter().map(row))
+        }
+    }
 }

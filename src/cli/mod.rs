@@ -2,13 +2,16 @@
 
 mod inspect;
 mod list;
+mod memory;
 mod progress;
 mod render;
 mod show;
 
 use crate::scene::{SceneError, Text};
-use crate::spectrum::Library;
-use clap::{Args, Parser, Subcommand};
+use crate::spectrum::{Library, nearest};
+use clap::{Args, CommandFactory, Parser, Subcommand};
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -17,7 +20,7 @@ const DEFAULT_SCENE: (&str, &str) = ("spectrel.toml", include_str!("../../scenes
 
 /// Predicts how metals and gems look from measured spectra.
 #[derive(Debug, Parser)]
-#[command(version, about, long_about = LONG_ABOUT, args_conflicts_with_subcommands = true, max_term_width = 110)]
+#[command(version, after_help = AFTER_HELP, args_conflicts_with_subcommands = true, max_term_width = 110)]
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
@@ -25,10 +28,14 @@ struct Cli {
     render: render::RenderArgs,
 }
 
-const LONG_ABOUT: &str = "Predicts how metals and gems look from measured spectra.\n\n\
-    Paths carry eight wavelengths, interfaces use the exact Fresnel equations with measured n and k, and colours go \
-    through the CIE observers. Scenes and materials are TOML files.\n\n\
-    Without a command spectrel renders its default scene into spectrel.png and spectrel.exr.";
+const AFTER_HELP: &str = "\
+Examples:
+  spectrel                                  the built-in scene, into spectrel.png and spectrel.exr
+  spectrel ring.toml -o ring.png --spp 512  a scene of your own
+  spectrel inspect ring.toml                what it contains, and which data it stands on
+  spectrel list materials                   what `material = \"…\"` can name
+
+Ctrl-C ends a render early and writes what there is.";
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -43,7 +50,7 @@ enum Command {
 /// Where a scene and its data come from.
 #[derive(Clone, Debug, Args)]
 struct SceneArgs {
-    /// Scene file (TOML); the built-in jeweller's tray unless given
+    /// Scene file (TOML) [default: a built-in jeweller's tray]
     scene: Option<PathBuf>,
     #[command(flatten)]
     library: LibraryArgs,
@@ -51,7 +58,7 @@ struct SceneArgs {
 
 #[derive(Clone, Debug, Args)]
 struct LibraryArgs {
-    /// Folder with own `spectra/` and `materials/`, searched before the built-in ones (can be repeated)
+    /// Folder with your own `spectra/` and `materials/`, searched before the built-in ones; can be repeated
     #[arg(long, value_name = "DIR")]
     library: Vec<PathBuf>,
 }
@@ -72,27 +79,56 @@ impl SceneArgs {
     }
 }
 
-/// A file that should hold a scene: too large a one, or one that is no text, is told apart from a missing one.
+/// Larger files are no scenes.
+const LARGEST_SCENE: u64 = 64 << 20;
+
+/// A file that should hold a scene: a folder, too large a file or one that is no text is told apart from a missing one.
 fn read_text(path: &Path) -> Result<Text, SceneError> {
-    const LARGEST: u64 = 64 << 20;
-    let unreadable = |error: std::io::Error| SceneError::new(format!("cannot read {}: {error}", path.display()));
-    let size = std::fs::metadata(path).map_err(unreadable)?.len();
-    if size > LARGEST {
+    let shown = path.display();
+    if path.is_dir() {
+        return Err(SceneError::new(format!("{shown} is a folder, not a scene file")));
+    }
+    let mut bytes = Vec::new();
+    // A device or a pipe has no size to ask for and may never end.
+    let read = File::open(path).and_then(|file| file.take(LARGEST_SCENE + 1).read_to_end(&mut bytes));
+    read.map_err(|error| unreadable(path, &error))?;
+    if bytes.len() as u64 > LARGEST_SCENE {
         return Err(SceneError::new(format!(
-            "{} is {} MB: a scene is a text file of at most 64 MB",
-            path.display(),
-            size >> 20
+            "{shown} is too large: a scene is a text file of at most {} MB",
+            LARGEST_SCENE >> 20
         )));
     }
-    let bytes = std::fs::read(path).map_err(unreadable)?;
-    match String::from_utf8(bytes) {
-        Ok(content) => Ok(Text::new(path, content)),
-        Err(error) => {
-            let at = error.utf8_error().valid_up_to();
-            Err(SceneError::new(format!("{} is no text: byte {at} is not UTF-8", path.display()))
-                .help("a scene is a TOML file; `spectrel list` and the README show how it looks"))
-        }
+    String::from_utf8(bytes).map(|content| Text::new(path, content)).map_err(|error| {
+        let (before, _) = error.as_bytes().split_at(error.utf8_error().valid_up_to());
+        let line = before.iter().filter(|&&byte| byte == b'\n').count() + 1;
+        SceneError::new(format!("{shown}:{line}: this is no text: byte {} of the file is not UTF-8", before.len() + 1))
+            .help("a scene is a TOML text file")
+    })
+}
+
+fn unreadable(path: &Path, error: &io::Error) -> SceneError {
+    if error.kind() != io::ErrorKind::NotFound {
+        return SceneError::new(format!("cannot read {}: {error}", path.display()));
     }
+    let missing = SceneError::new(format!("there is no file {}", path.display()));
+    match meant(path) {
+        Some(name) => missing.help(format!("did you mean {name}?")),
+        None => missing,
+    }
+}
+
+/// The scene file of the same folder, or the command, that a missing file's name is most like.
+fn meant(path: &Path) -> Option<String> {
+    let name = path.file_name()?.to_str()?;
+    if path.extension().is_none() {
+        let cli = Cli::command();
+        let command = nearest(name, cli.get_subcommands().map(clap::Command::get_name));
+        return command.map(|command| format!("the command `{command}`"));
+    }
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let names = std::fs::read_dir(folder).ok()?.flatten().filter_map(|entry| entry.file_name().into_string().ok());
+    let scenes: Vec<_> = names.filter(|name| name.ends_with(".toml")).collect();
+    nearest(name, scenes.iter().map(String::as_str)).map(|scene| path.with_file_name(scene).display().to_string())
 }
 
 /// Parses the command line, runs it, prints one error if there is one.

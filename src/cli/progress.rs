@@ -7,6 +7,7 @@ use std::io::IsTerminal;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
+/// Where the progress of a render is shown.
 pub enum Shown {
     Nothing,
     Bar(ProgressBar),
@@ -14,7 +15,7 @@ pub enum Shown {
 }
 
 /// A plain line each time so much of the work is done.
-const LINES: u64 = 10;
+const LINES: u128 = 10;
 
 impl Shown {
     pub fn new(total: u64, quiet: bool) -> Self {
@@ -50,11 +51,15 @@ impl Progress for Shown {
             Self::Lines { total, done, started } => {
                 let before = done.fetch_add(samples, Ordering::Relaxed);
                 let now = before + samples;
-                if before * LINES / total != now * LINES / total {
+                let tenth = |samples: u64| u128::from(samples) * LINES / u128::from((*total).max(1));
+                if tenth(before) != tenth(now) {
                     let seconds = started.elapsed().as_secs_f64();
                     let left = seconds * (total - now) as f64 / now as f64;
                     let rate = now as f64 / seconds / 1e6;
-                    show::note(format_args!("{:>3} %  {left:.0} s left  {rate:.2} M samples/s", now * 100 / total));
+                    show::note(format_args!(
+                        "{:>3} %  {left:.0} s left  {rate:.2} M samples/s",
+                        tenth(now) * 100 / LINES
+                    ));
                 }
             }
         }

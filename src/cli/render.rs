@@ -1,9 +1,8 @@
 //! `spectrel render`: a scene becomes pictures.
 
 use super::progress::Shown;
-use super::{SceneArgs, show};
-use crate::film::fnv1a_64;
-use crate::film::{Develop, Developed, Exposure, Film, Gamut, Window};
+use super::{SceneArgs, memory, show};
+use crate::film::{Develop, Developed, Exposure, Film, Gamut, Window, fnv1a_64};
 use crate::fresnel::FresnelModel;
 use crate::image::{self, Bits, ExrSpace, Metadata, Options};
 use crate::render::{Kernel, render};
@@ -20,31 +19,30 @@ use std::time::Instant;
 pub struct RenderArgs {
     #[command(flatten)]
     scene: SceneArgs,
-    /// Picture to write, .png or .exr (can be repeated); the scene's name with both unless given
+    /// Picture to write, .png or .exr; can be repeated [default: the scene's name with both]
     #[arg(short, long, value_name = "FILE")]
     output: Vec<PathBuf>,
     /// Samples a pixel
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     spp: Option<u32>,
-    /// Seed: another one gives another noise
+    /// Another seed gives another noise
     #[arg(long, value_name = "S")]
     seed: Option<u64>,
-    /// Threads; all cores unless given. The picture does not depend on it
-    #[arg(long, value_name = "T", value_parser = clap::value_parser!(u16).range(1..))]
+    /// Threads, which change nothing but the time [default: all cores]
+    #[arg(long, value_name = "T", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// Width in pixels; the height follows unless given
+    /// Width in pixels; the height follows if it is not given
     #[arg(long, value_name = "W", value_parser = clap::value_parser!(u32).range(1..))]
     width: Option<u32>,
-    /// Height in pixels; the width follows unless given
+    /// Height in pixels; the width follows if it is not given
     #[arg(long, value_name = "H", value_parser = clap::value_parser!(u32).range(1..))]
     height: Option<u32>,
-    /// Render only this part, in pixels, the upper ends excluded
+    /// Render this part only: pixels from the upper left, x1 and y1 excluded
     #[arg(long, value_name = "x0,y0,x1,y1", value_parser = crop)]
     crop: Option<[u32; 4]>,
-    /// Fresnel model for every material
     #[arg(long, value_name = "MODEL", value_parser = model, help = format!("Fresnel model for every material: {}", FresnelModel::NAMES.join(", ")))]
     fresnel: Option<FresnelModel>,
-    /// Wavelengths a path carries
+    /// Wavelengths a path carries [default: 8]
     #[arg(long, value_name = "1|4|8", value_parser = lanes)]
     lanes: Option<u32>,
     /// Bits a channel of PNG files
@@ -75,8 +73,8 @@ fn model(name: &str) -> Result<FresnelModel, String> {
 }
 
 fn lanes(text: &str) -> Result<u32, String> {
-    match text {
-        "1" | "4" | "8" => Ok(text.as_bytes()[0].into()).map(|digit: u32| digit - u32::from(b'0')),
+    match text.parse() {
+        Ok(lanes @ (1 | 4 | 8)) => Ok(lanes),
         _ => Err("a path carries 1, 4 or 8 wavelengths".into()),
     }
 }
@@ -107,7 +105,12 @@ impl RenderArgs {
             return self.output.clone();
         }
         let name = self.scene.scene.as_deref().and_then(Path::file_stem).unwrap_or("spectrel".as_ref());
-        ["png", "exr"].map(|extension| Path::new(name).with_extension(extension)).to_vec()
+        let with = |ending: &str| {
+            let mut name = name.to_owned();
+            name.push(ending);
+            name.into()
+        };
+        [".png", ".exr"].map(with).to_vec()
     }
 
     fn options(&self) -> Options {
@@ -129,14 +132,20 @@ pub fn run(args: &RenderArgs) -> Result<(), SceneError> {
     let film = expose(&scene, &needs, args)?;
     let developed = film.develop(&development(&scene)).map_err(SceneError::new)?;
     report(&developed, args.quiet);
-    for path in &outputs {
-        let written = image::write(path, &developed, &args.options(), &metadata(&scene, &film, &developed))
-            .map_err(SceneError::new)?;
-        if written.beyond_half > 0 {
-            show::warning(format_args!("{} channels are beyond the range of 16-bit floats", written.beyond_half));
+    write(&outputs, &developed, &metadata(&scene, &film, &developed), args)
+}
+
+/// Writes all pictures, or none if one of them cannot be encoded.
+fn write(paths: &[PathBuf], developed: &Developed, metadata: &Metadata, args: &RenderArgs) -> Result<(), SceneError> {
+    let encode = |path: &PathBuf| image::encode(image::Format::of(path)?, developed, &args.options(), metadata);
+    let files = paths.iter().map(encode).collect::<Result<Vec<_>, _>>().map_err(SceneError::new)?;
+    for (path, file) in paths.iter().zip(files) {
+        image::atomic::write(path, &file.bytes).map_err(SceneError::new)?;
+        if file.beyond_half > 0 {
+            show::warning(format_args!("{} channels are beyond the range of 16-bit floats", file.beyond_half));
         }
         if !args.quiet {
-            show::note(format_args!("wrote {} ({:.0} kB)", path.display(), written.bytes as f64 / 1e3));
+            show::note(format_args!("wrote {} ({:.0} kB)", path.display(), file.bytes.len() as f64 / 1e3));
         }
     }
     Ok(())
@@ -145,26 +154,28 @@ pub fn run(args: &RenderArgs) -> Result<(), SceneError> {
 /// Renders the scene, on a thread pool of its own, until it is done or interrupted.
 fn expose(scene: &Scene, needs: &Needs, args: &RenderArgs) -> Result<Film, SceneError> {
     let settings = &scene.settings;
-    let mut film = Film::new([settings.width, settings.height], window(settings.crop)).map_err(SceneError::new)?;
+    let window = window(settings.crop);
+    memory::check(window)?;
+    let mut film = Film::new([settings.width, settings.height], window).map_err(SceneError::new)?;
     let threads = usize::from(args.threads.unwrap_or(0));
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(SceneError::new)?;
     let cancel = cancel_on_interrupt();
     let samples = u64::from(settings.samples);
-    let progress = Shown::new(film.window().pixel_count() * samples, args.quiet);
+    let progress = Shown::new(window.pixel_count() * samples, args.quiet);
     let started = Instant::now();
     let kernel = Kernel::new(scene, needs);
     pool.install(|| render(&kernel, &mut film, 0..samples, &progress, &cancel));
     progress.finish();
     if cancel.load(Ordering::Relaxed) {
-        show::warning(format_args!("interrupted: writing the {} samples there are", film.samples()));
+        show::warning("interrupted: writing what there is");
     }
     if !args.quiet {
         let seconds = started.elapsed().as_secs_f64();
         let rate = film.samples() as f64 / seconds / 1e6;
+        let each = film.samples() / window.pixel_count();
+        let Window { width, height, .. } = window;
         show::note(format_args!(
-            "{} × {} pixels, {samples} samples each: {seconds:.1} s, {rate:.2} M samples/s",
-            film.window().width,
-            film.window().height
+            "{width} × {height} pixels, {each} samples each: {seconds:.1} s, {rate:.2} M samples/s"
         ));
     }
     Ok(film)

@@ -30,3 +30,26 @@ pub fn columns<const N: usize>(rows: &[[String; N]]) -> String {
     };
     rows.iter().map(line).collect::<Vec<_>>().join("\n")
 }
+
+/// [`columns`] under their names.
+pub fn table<const N: usize>(names: [&str; N], rows: impl IntoIterator<Item = [String; N]>) -> String {
+    let head = names.map(str::to_owned);
+    columns(&std::iter::once(head).chain(rows).collect::<Vec<_>>())
+}
+
+/// A block of lines under a title, two spaces in.
+pub fn section(title: impl Display, lines: &str) -> String {
+    let lines: Vec<_> = lines.lines().map(|line| format!("\n  {line}")).collect();
+    format!("{title}{}", lines.concat())
+}
+
+/// Wavelengths that data cover.
+pub fn range_nm(range: Option<(f64, f64)>) -> String {
+    range.map_or("everywhere".into(), |(first, last)| format!("{first:.0}–{last:.0} nm"))
+}
+
+/// Who published data, in short.
+pub fn source(authors: &str, year: Option<i32>) -> String {
+    let first_author = authors.split([',', ';']).next().unwrap_or_default();
+    year.map_or(first_author.to_owned(), |year| format!("{first_author} {year}"))
+}

@@ -3,13 +3,17 @@
 //! Kinds are externally tagged (`shape.sphere = { … }`, `[conductor]`), so that an error points at the exact place; untagged
 //! and flattened structures lose it.
 
+use super::numbers::{Finite, Length, Lengths, Numbers};
 use crate::fresnel::FresnelModel;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use toml::Spanned;
 
-pub type Vector = Spanned<[f64; 3]>;
+pub type Vector = Spanned<Numbers<3>>;
 type Number = Spanned<f64>;
+
+/// Keys of a scene that stand above its first table: below one they would belong to that.
+pub const TOP_KEYS: [&str; 2] = ["meters_per_unit", "outside"];
 
 /// A whole scene file.
 #[derive(Debug, Deserialize)]
@@ -31,13 +35,17 @@ pub struct SceneFile {
     pub objects: Vec<Spanned<Object>>,
 }
 
-/// How to render: everything here can be overridden on the command line.
+/// How to render: everything here but `max_depth`, `filter` and `sampler` can be overridden on the command line.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Render {
+    /// Pixels; 960 unless given.
     pub width: Option<Spanned<u32>>,
+    /// Pixels; 640 unless given.
     pub height: Option<Spanned<u32>>,
+    /// Samples a pixel; 128 unless given.
     pub samples: Option<Spanned<u32>>,
+    /// Another seed gives another noise; 0 unless given.
     pub seed: Option<u64>,
     /// The longest path in surface interactions; no bound but roulette unless given.
     pub max_depth: Option<Spanned<u32>>,
@@ -45,10 +53,11 @@ pub struct Render {
     pub filter: FilterName,
     #[serde(default)]
     pub sampler: SamplerName,
-    /// A Fresnel model for the whole render.
+    /// A Fresnel model for the whole render; it wins over those of the materials.
     pub fresnel: Option<FresnelModel>,
 }
 
+/// How samples spread around a pixel's centre.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Serialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
 pub enum FilterName {
@@ -57,6 +66,7 @@ pub enum FilterName {
     BlackmanHarris,
 }
 
+/// Where random numbers come from: Owen-scrambled Sobol points, or independent ones for statistics.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Serialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
 pub enum SamplerName {
@@ -65,34 +75,33 @@ pub enum SamplerName {
     Independent,
 }
 
+/// A pinhole camera. How wide it sees is said either by `fov` or by `focal_length_mm`.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Camera {
     pub position: Vector,
+    /// The point in the middle of the picture.
     pub look_at: Vector,
-    #[serde(default = "up")]
-    pub up: [f64; 3],
+    /// What is up in the picture; +z unless given.
+    pub up: Option<Vector>,
     /// Horizontal field of view in degrees.
     pub fov: Option<Number>,
     pub focal_length_mm: Option<Number>,
-    #[serde(default = "full_frame")]
-    pub sensor_width_mm: f64,
+    /// Width of the sensor behind `focal_length_mm`; 36 unless given.
+    pub sensor_width_mm: Option<Number>,
 }
 
-fn up() -> [f64; 3] {
-    [0.0, 0.0, 1.0]
-}
-
-fn full_frame() -> f64 {
-    36.0
+fn up() -> Numbers<3> {
+    Numbers::new([0.0, 0.0, 1.0])
 }
 
 /// How the film is developed.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Picture {
+    /// Display white is 2^EV cd/m²; `"auto"` unless given.
     pub exposure: Option<Spanned<ExposureValue>>,
-    /// `"scene"` (the strongest light's own spectrum) or an illuminant's name.
+    /// What becomes white: `"scene"` (the strongest light's own spectrum) or an illuminant's name; D65 unless given.
     pub white_balance: Option<Spanned<String>>,
     #[serde(default)]
     pub gamut: GamutName,
@@ -100,6 +109,7 @@ pub struct Picture {
     pub observer: ObserverName,
 }
 
+/// What a PNG shows of colours that no display can: each channel cut, or the hue kept and the colour made paler.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Serialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
 pub enum GamutName {
@@ -127,8 +137,9 @@ pub enum ExposureValue {
     Ev(f64),
 }
 
+/// What shines from infinitely far away, all around.
 #[derive(Debug, Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(rename_all = "kebab-case", remote = "Self")]
 pub enum Environment {
     Constant(Emission),
     Gradient(Box<Gradient>),
@@ -144,7 +155,7 @@ pub struct Gradient {
     pub nadir: Emission,
 }
 
-/// A spectrum with a strength.
+/// A spectrum with a strength: one of `luminance`, `radiance` and `scale`.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Emission {
@@ -167,8 +178,9 @@ pub enum LightSpectrum {
     Own(OwnLight),
 }
 
+/// A spectrum that the scene states itself.
 #[derive(Debug, Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(rename_all = "kebab-case")]
 pub enum OwnLight {
     /// Colour temperature in K.
     Blackbody(Number),
@@ -176,17 +188,20 @@ pub enum OwnLight {
     Daylight(Number),
     Table(OwnTable),
     /// Emission lines as [wavelength in nm, relative power].
-    Lines(Vec<[f64; 2]>),
+    Lines(Vec<Spanned<Numbers<2>>>),
 }
 
+/// Linear between its points and without light outside them.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct OwnTable {
-    pub wavelength_nm: Vec<f64>,
-    pub value: Vec<f64>,
+    /// Growing.
+    pub wavelength_nm: Vec<Spanned<f64>>,
+    /// As many as wavelengths; in W m⁻² sr⁻¹ nm⁻¹ if `scale` is given, in any unit otherwise.
+    pub value: Vec<Spanned<f64>>,
 }
 
-/// A material: a file of `materials/` or an entry of a scene's `[materials]`.
+/// A material: a file of `materials/` or an entry of a scene's `[materials]`. It is of exactly one kind.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
@@ -199,6 +214,7 @@ pub struct Material {
     pub diffuse: Option<Spanned<Diffuse>>,
 }
 
+/// A metal: it reflects at its surface, and what enters is lost. Smooth unless one of the two words for roughness is given.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Conductor {
@@ -207,17 +223,22 @@ pub struct Conductor {
     pub roughness: Option<Number>,
     /// r with α = r².
     pub perceptual_roughness: Option<Number>,
+    /// `exact` unless given.
     pub fresnel: Option<FresnelModel>,
 }
 
+/// A smooth, clear or coloured solid such as glass, water or a gem.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Dielectric {
     pub ior: Spanned<IndexSource>,
+    /// From the k of `ior` unless given.
     pub absorption: Option<Spanned<AbsorptionSource>>,
+    /// `exact` unless given.
     pub fresnel: Option<FresnelModel>,
 }
 
+/// A matt surface that scatters alike in all directions (Lambert).
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Diffuse {
@@ -247,20 +268,22 @@ pub enum ReflectanceSource {
     Rgb([f64; 3]),
 }
 
+/// A shape at a place, of a material, with or without light of its own.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Object {
+    /// For people; "object 7" unless given.
     pub name: Option<String>,
     /// Needed unless the object shines: what only shines is black.
     pub material: Option<Spanned<String>>,
     pub shape: Spanned<Shape>,
-    #[serde(default)]
     pub transform: Option<Spanned<Transform>>,
     pub emission: Option<Spanned<Emission>>,
 }
 
+/// One kind of shape; lengths in scene units.
 #[derive(Debug, Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(rename_all = "kebab-case", remote = "Self")]
 pub enum Shape {
     Sphere(Sphere),
     Rectangle(Rectangle),
@@ -271,90 +294,104 @@ pub enum Shape {
     StepCut(StepCut),
 }
 
+/// A ball.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sphere {
     #[serde(default)]
-    pub center: [f64; 3],
-    pub radius: f64,
+    pub center: Numbers<3>,
+    pub radius: Length,
 }
 
-/// A rectangle in the plane z = 0 around the origin, its front towards +z; placed by the transform or by `center`, `normal`.
+/// A rectangle around `center`, its front towards `normal` (+z unless given), its width level.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rectangle {
     #[serde(default)]
-    pub center: [f64; 3],
-    pub size: [f64; 2],
+    pub center: Numbers<3>,
+    pub size: Lengths<2>,
     #[serde(default = "up")]
-    pub normal: [f64; 3],
+    pub normal: Numbers<3>,
 }
 
+/// A disk around `center`, its front towards `normal` (+z unless given).
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Disk {
     #[serde(default)]
-    pub center: [f64; 3],
-    pub radius: f64,
+    pub center: Numbers<3>,
+    pub radius: Length,
     #[serde(default = "up")]
-    pub normal: [f64; 3],
+    pub normal: Numbers<3>,
 }
 
+/// A box with its edges along the axes.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cuboid {
     #[serde(default)]
-    pub center: [f64; 3],
-    pub size: [f64; 3],
+    pub center: Numbers<3>,
+    pub size: Lengths<3>,
 }
 
 /// Half-spaces n·x ≤ d as [nx, ny, nz, d]; normals need not be of unit length.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Convex {
-    pub planes: Vec<[f64; 4]>,
+    pub planes: Vec<Spanned<Numbers<4>>>,
 }
 
-/// A round brilliant with its table towards +z; ratios are of the girdle diameter, angles in degrees.
+/// A round brilliant, its culet at the origin and its table towards +z; ratios are of the girdle diameter, angles in degrees.
+/// What is not given is within the best grade of the trade.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Brilliant {
-    pub diameter: f64,
-    pub table: Option<f64>,
-    pub crown_angle: Option<f64>,
-    pub pavilion_angle: Option<f64>,
-    pub girdle: Option<f64>,
-    pub star_length: Option<f64>,
-    pub lower_half_length: Option<f64>,
-    pub culet: Option<f64>,
+    pub diameter: Length,
+    /// Table width from corner to opposite corner.
+    pub table: Option<Finite>,
+    pub crown_angle: Option<Finite>,
+    pub pavilion_angle: Option<Finite>,
+    /// Thickness where bezels and mains meet it.
+    pub girdle: Option<Finite>,
+    /// How far stars reach from table edge to girdle, in plan, 0…1.
+    pub star_length: Option<Finite>,
+    /// How far lower halves reach from girdle to centre, in plan, 0…1.
+    pub lower_half_length: Option<Finite>,
+    /// Width of the culet; 0 is a point.
+    pub culet: Option<Finite>,
+    /// A multiple of 16.
     pub girdle_facets: Option<u32>,
 }
 
-/// An octagonal step ("emerald") cut with its table towards +z; ratios are of the width, angles in degrees.
+/// An octagonal step ("emerald") cut, its keel on z = 0 along x and its table towards +z; ratios are of the width, angles in
+/// degrees.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StepCut {
-    pub width: f64,
-    pub length: f64,
-    pub corner: Option<f64>,
-    pub table: Option<f64>,
+    pub width: Length,
+    /// At least the width.
+    pub length: Length,
+    /// How much of the width each cut corner takes from a side.
+    pub corner: Option<Finite>,
+    pub table: Option<Finite>,
     /// From girdle to table.
-    pub crown_angles: Option<[f64; 3]>,
+    pub crown_angles: Option<Numbers<3>>,
     /// From girdle to keel.
-    pub pavilion_angles: Option<[f64; 3]>,
-    pub girdle: Option<f64>,
+    pub pavilion_angles: Option<Numbers<3>>,
+    /// Thickness.
+    pub girdle: Option<Finite>,
 }
 
-/// Applied in this order: scale, rotation about the axis through the origin, translation.
+/// Moves an object; applied in this order: scale, rotation about the origin, translation.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Transform {
     pub scale: Option<Spanned<Scale>>,
     /// Rotations about x, y and z in degrees, in this order.
-    pub rotate: Option<[f64; 3]>,
-    pub translate: Option<[f64; 3]>,
+    pub rotate: Option<Numbers<3>>,
+    pub translate: Option<Numbers<3>>,
 }
 
 /// One factor, or one an axis.
 #[derive(Debug)]
-pub struct Scale(pub [f64; 3]);
+pub struct Scale(pub Numbers<3>);

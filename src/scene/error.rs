@@ -1,9 +1,12 @@
 //! Errors that say where, what was expected, and what was probably meant.
 
-use crate::spectrum::{SpectrumError, nearest};
+use super::words::{meant, plain};
+use crate::spectrum::SpectrumError;
 use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
 
 /// A text that values come from: a scene or material file, kept so that an error can show its line.
 #[derive(Clone, Debug)]
@@ -65,13 +68,44 @@ impl Text {
     /// Reads TOML into `T`; unknown names come with the nearest known one.
     pub fn parse<T: serde::de::DeserializeOwned>(&self) -> Result<T, SceneError> {
         toml::from_str(&self.content).map_err(|error| {
-            let message = error.message().trim_end();
-            let found = match error.span() {
-                Some(span) => self.error(&span, message),
-                None => self.whole(message),
-            };
-            found.maybe_help(meant_name(message))
+            if self.content.lines().all(|line| line.trim().is_empty() || line.trim_start().starts_with('#')) {
+                return self.whole("there is nothing in this file");
+            }
+            let mut message = plain(error.message());
+            let Some(span) = error.span() else { return self.whole(message) };
+            if error.message().starts_with("missing field") {
+                let table = self.table_at(&span).map_or("this file".to_owned(), |path| format!("`{path}`"));
+                message = format!("{message} in {table}");
+            }
+            self.error(&span, message).maybe_help(meant(error.message()))
         })
+    }
+
+    /// The dotted name of the table that stands at a place.
+    fn table_at(&self, span: &Range<usize>) -> Option<String> {
+        let root = DeTable::parse(&self.content).ok()?;
+        path_to(root.get_ref(), span).map(|mut path| {
+            path.reverse();
+            path.join(".")
+        })
+    }
+}
+
+/// The keys that lead to the table at a place, the last one first.
+fn path_to(table: &DeTable, span: &Range<usize>) -> Option<Vec<String>> {
+    table.iter().find_map(|(key, value)| {
+        let mut path = keys_below(value, span)?;
+        path.push(key.get_ref().to_string());
+        Some(path)
+    })
+}
+
+fn keys_below(value: &Spanned<DeValue>, span: &Range<usize>) -> Option<Vec<String>> {
+    match value.get_ref() {
+        DeValue::Table(_) if value.span() == *span => Some(Vec::new()),
+        DeValue::Table(table) => path_to(table, span),
+        DeValue::Array(list) => list.iter().find_map(|entry| keys_below(entry, span)),
+        _ => None,
     }
 }
 
@@ -125,17 +159,10 @@ impl From<SpectrumError> for SceneError {
     }
 }
 
-/// A suggestion from serde's words: "unknown field `x`, expected one of `a`, `b`".
-fn meant_name(message: &str) -> Option<String> {
-    let (unknown, expected) = message.strip_prefix("unknown ")?.split_once("expected ")?;
-    let wanted = unknown.split('`').nth(1)?;
-    let name = nearest(wanted, expected.split('`').skip(1).step_by(2))?;
-    Some(format!("did you mean `{name}`?"))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::collections::BTreeMap;
 
     #[test]
     fn places_count_lines_and_characters_from_one() {
@@ -157,10 +184,21 @@ mod tests {
     }
 
     #[test]
-    fn serde_messages_give_a_suggestion() {
-        let message = "unknown field `radus`, expected one of `center`, `radius`";
-        assert_eq!(meant_name(message).as_deref(), Some("did you mean `radius`?"));
-        assert_eq!(meant_name("unknown field `zzz`, expected `center`"), None);
-        assert_eq!(meant_name("invalid type: string"), None);
+    fn a_missing_key_names_its_table() {
+        #[derive(Debug, serde::Deserialize)]
+        #[allow(dead_code, reason = "only the error matters")]
+        struct File {
+            a: Vec<Inner>,
+        }
+        #[derive(Debug, serde::Deserialize)]
+        #[allow(dead_code, reason = "only the error matters")]
+        struct Inner {
+            b: BTreeMap<String, u32>,
+            c: Option<Box<Inner>>,
+        }
+        let message = |text: &str| Text::new("a.toml", text).parse::<File>().unwrap_err().to_string();
+        assert!(message("x = 1").starts_with("a.toml:1:1: `a` is missing in this file"));
+        assert!(message("[[a]]\nb = {}\n[[a]]\nc = {}").starts_with("a.toml:4:5: `b` is missing in `a.c`"));
+        assert_eq!(message("# nothing"), "a.toml: there is nothing in this file");
     }
 }

@@ -3,8 +3,9 @@
 //! Untagged serde enums would do it too, but they lose the place of what is wrong inside a table; one visitor keeps it.
 
 use super::describe::{
-    AbsorptionSource, ExposureValue, IndexSource, LightSpectrum, OwnLight, ReflectanceSource, Scale,
+    AbsorptionSource, Environment, ExposureValue, IndexSource, LightSpectrum, OwnLight, ReflectanceSource, Scale, Shape,
 };
+use super::numbers::{Finite, Numbers};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use std::fmt;
@@ -14,12 +15,12 @@ use std::marker::PhantomData;
 trait Forms<'de>: Sized {
     const EXPECTED: &'static str;
 
-    fn name<E: Error>(_: &str) -> Result<Self, E> {
-        Err(unexpected::<Self, E>("a string"))
+    fn name<E: Error>(name: &str) -> Result<Self, E> {
+        Err(unexpected::<Self, E>(&format!("the text \"{name}\"")))
     }
 
-    fn number<E: Error>(_: f64) -> Result<Self, E> {
-        Err(unexpected::<Self, E>("a number"))
+    fn number<E: Error>(number: f64) -> Result<Self, E> {
+        Err(unexpected::<Self, E>(&number.to_string()))
     }
 
     fn list<A: SeqAccess<'de>>(_: A) -> Result<Self, A::Error> {
@@ -32,7 +33,19 @@ trait Forms<'de>: Sized {
 }
 
 fn unexpected<'de, T: Forms<'de>, E: Error>(found: &str) -> E {
-    E::custom(format!("invalid type: {found}, expected {}", T::EXPECTED))
+    E::custom(format!("expected {}, found {found}", T::EXPECTED))
+}
+
+/// An externally tagged enum whose table holds one kind and nothing else; serde alone would ignore what follows the first.
+fn one_kind<'de, T: Forms<'de>, A: MapAccess<'de>>(
+    mut table: A,
+    read: impl FnOnce(MapAccessDeserializer<&mut A>) -> Result<T, A::Error>,
+) -> Result<T, A::Error> {
+    let kind = read(MapAccessDeserializer::new(&mut table))?;
+    match table.next_key::<String>()? {
+        None => Ok(kind),
+        Some(second) => Err(unexpected::<T, A::Error>(&format!("`{second}` beside another one"))),
+    }
 }
 
 struct FormVisitor<T>(PhantomData<T>);
@@ -75,13 +88,38 @@ macro_rules! deserialize_by_form {
     )*};
 }
 
-deserialize_by_form!(AbsorptionSource, ExposureValue, IndexSource, LightSpectrum, ReflectanceSource, Scale);
+deserialize_by_form!(
+    AbsorptionSource,
+    Environment,
+    ExposureValue,
+    IndexSource,
+    LightSpectrum,
+    ReflectanceSource,
+    Scale,
+    Shape
+);
+
+impl<'de> Forms<'de> for Environment {
+    const EXPECTED: &'static str = "one kind of environment, `constant` or `gradient`";
+
+    fn table<A: MapAccess<'de>>(table: A) -> Result<Self, A::Error> {
+        one_kind(table, |table| Self::deserialize(table))
+    }
+}
+
+impl<'de> Forms<'de> for Shape {
+    const EXPECTED: &'static str = "one kind of shape with its sizes, such as { sphere = { radius = 1 } }";
+
+    fn table<A: MapAccess<'de>>(table: A) -> Result<Self, A::Error> {
+        one_kind(table, |table| Self::deserialize(table))
+    }
+}
 
 impl<'de> Forms<'de> for ExposureValue {
     const EXPECTED: &'static str = "\"auto\" or an exposure value";
 
     fn name<E: Error>(name: &str) -> Result<Self, E> {
-        if name == "auto" { Ok(Self::Auto) } else { Err(unexpected::<Self, E>(&format!("the string \"{name}\""))) }
+        if name == "auto" { Ok(Self::Auto) } else { Err(unexpected::<Self, E>(&format!("the text \"{name}\""))) }
     }
 
     fn number<E: Error>(ev: f64) -> Result<Self, E> {
@@ -91,14 +129,14 @@ impl<'de> Forms<'de> for ExposureValue {
 
 impl<'de> Forms<'de> for LightSpectrum {
     const EXPECTED: &'static str =
-        "an illuminant's name or file, or one of { blackbody = K }, { daylight = K }, { table = … }, { lines = … }";
+        "an illuminant's name or file, or one of { blackbody = K }, { daylight = K }, { table = … } and { lines = … }";
 
     fn name<E: Error>(name: &str) -> Result<Self, E> {
         Ok(Self::Name(name.to_owned()))
     }
 
     fn table<A: MapAccess<'de>>(table: A) -> Result<Self, A::Error> {
-        OwnLight::deserialize(MapAccessDeserializer::new(table)).map(Self::Own)
+        one_kind(table, |table| OwnLight::deserialize(table).map(Self::Own))
     }
 }
 
@@ -153,9 +191,9 @@ impl<'de> Forms<'de> for ReflectanceSource {
         #[derive(serde::Deserialize)]
         #[serde(deny_unknown_fields)]
         struct Rgb {
-            rgb: [f64; 3],
+            rgb: Numbers<3>,
         }
-        Rgb::deserialize(MapAccessDeserializer::new(table)).map(|Rgb { rgb }| Self::Rgb(rgb))
+        Rgb::deserialize(MapAccessDeserializer::new(table)).map(|Rgb { rgb }| Self::Rgb(rgb.values()))
     }
 }
 
@@ -163,10 +201,11 @@ impl<'de> Forms<'de> for Scale {
     const EXPECTED: &'static str = "a factor, or three of them for x, y and z";
 
     fn number<E: Error>(factor: f64) -> Result<Self, E> {
-        Ok(Self([factor; 3]))
+        let number = Finite::deserialize(serde::de::value::F64Deserializer::<E>::new(factor))?;
+        Ok(Self(Numbers::new([number.0; 3])))
     }
 
     fn list<A: SeqAccess<'de>>(list: A) -> Result<Self, A::Error> {
-        <[f64; 3]>::deserialize(SeqAccessDeserializer::new(list)).map(Self)
+        Numbers::deserialize(SeqAccessDeserializer::new(list)).map(Self)
     }
 }

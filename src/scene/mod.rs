@@ -4,10 +4,12 @@ pub mod describe;
 mod error;
 mod forms;
 mod needs;
+mod numbers;
 mod resolve;
+mod words;
 
 pub use error::{Place, SceneError, Text};
-pub use needs::{Decision, Needs};
+pub use needs::{Decision, Needs, listed};
 pub use resolve::{Overrides, resolve};
 
 use crate::camera::{Camera, Filter};

@@ -54,7 +54,8 @@ fn objects_with(scene: &Scene, holds: impl Fn(&Surface) -> bool) -> Vec<&str> {
     scene.objects.iter().filter(has).map(|object| object.name.as_str()).collect()
 }
 
-fn listed(names: &[&str]) -> String {
+/// Names in a sentence: the first few and how many more.
+pub fn listed(names: &[&str]) -> String {
     match names {
         [] => "nothing".into(),
         [one] => (*one).into(),
@@ -119,7 +120,7 @@ fn absorption(scene: &Scene) -> Decision {
         scene.media.iter().filter(|medium| medium.absorption.is_some()).map(|medium| medium.name.as_str()).collect();
     match names.is_empty() {
         true => decision("absorption", false, "every medium is clear"),
-        false => decision("absorption", true, format!("{} absorbs along the path (Beer–Lambert)", listed(&names))),
+        false => decision("absorption", true, format!("along the path (Beer–Lambert) in {}", listed(&names))),
     }
 }
 
@@ -135,7 +136,7 @@ fn rough_metal(scene: &Scene) -> Decision {
     let rough = |surface: &Surface| matches!(surface, Surface::Conductor { alpha, .. } if *alpha > 0.0);
     match objects_with(scene, rough) {
         names if names.is_empty() => decision("microfacets", false, "no rough conductor"),
-        names => decision("microfacets", true, format!("{} is rough", listed(&names))),
+        names => decision("microfacets", true, format!("rough: {}", listed(&names))),
     }
 }
 
@@ -151,6 +152,7 @@ fn light_sampling(scene: &Scene) -> Decision {
         (_, true) => {
             decision("light sampling", false, "every surface is smooth: its one direction finds the light or not")
         }
+        (1, false) => decision("light sampling", true, "one shape shines on surfaces that scatter"),
         (count, false) => decision("light sampling", true, format!("{count} shapes shine on surfaces that scatter")),
     }
 }

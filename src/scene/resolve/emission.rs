@@ -4,10 +4,18 @@ use super::Resolver;
 use crate::light::Environment;
 use crate::scene::SceneError;
 use crate::scene::describe::{self, LightSpectrum, OwnLight};
+use crate::scene::numbers::Numbers;
 use crate::spectrum::{
     Daylight, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Line, Outside, Spectrum, SpectrumId, Table, integrate, luminance,
 };
 use std::ops::Range;
+use toml::Spanned;
+
+/// cd/m². Single samples of a light with few wavelengths are brighter, and the film counts them up to 5e11.
+const BRIGHTEST: f64 = 1e11;
+
+/// What the environment counts for against lights of a known area when the strongest is looked for: it surrounds all.
+const ENVIRONMENT_AREA: f64 = 1e3;
 
 /// A light with the strength it was given.
 pub struct Resolved {
@@ -44,6 +52,12 @@ impl Resolver<'_> {
         let factor = self.strength(emission, &spectrum, absolute, &span)?;
         let spectrum = spectrum.scaled(factor);
         let luminance = luminance(&spectrum, &self.observer_1931);
+        if !(0.0..=BRIGHTEST).contains(&luminance) {
+            let message = format!(
+                "this light has {luminance:.2e} cd/m²: it can have up to {BRIGHTEST:e} (the sun's disc has 1.6e9)"
+            );
+            return Err(self.text.error(&span, message));
+        }
         Ok(Resolved { id: self.spectra.add(spectrum), luminance })
     }
 
@@ -65,7 +79,7 @@ impl Resolver<'_> {
         };
         Ok(match own {
             OwnLight::Blackbody(kelvin) => {
-                let value = self.positive(kelvin, "a temperature in K")?;
+                let value = self.positive(kelvin, "`blackbody`")?;
                 (Spectrum::Blackbody { kelvin: value }, true)
             }
             OwnLight::Daylight(kelvin) => {
@@ -74,39 +88,43 @@ impl Resolver<'_> {
                 (Spectrum::Daylight(daylight), false)
             }
             OwnLight::Table(table) => (self.own_table(table, span)?, false),
-            OwnLight::Lines(lines) => (self.lines(lines, span)?, false),
+            OwnLight::Lines(lines) => (self.lines(lines)?, false),
         })
     }
 
     fn own_table(&self, table: &describe::OwnTable, span: &Range<usize>) -> Result<Spectrum, SceneError> {
-        let error = |message: String| Err(self.text.error(span, message));
         let (nm, value) = (&table.wavelength_nm, &table.value);
         if nm.len() != value.len() || nm.len() < 2 {
-            return error(format!(
-                "{} wavelengths and {} values: a table needs at least two pairs",
-                nm.len(),
-                value.len()
-            ));
+            let message =
+                format!("{} wavelengths and {} values: a table needs at least two pairs", nm.len(), value.len());
+            return Err(self.text.error(span, message));
         }
-        if let Some(at) = nm.windows(2).position(|pair| !(pair[0] < pair[1])) {
-            return error(format!("wavelengths must grow: {} nm is followed by {} nm", nm[at], nm[at + 1]));
+        for number in nm {
+            self.not_negative(number, "wavelength_nm")?;
         }
-        if let Some(bad) = nm.iter().chain(value).find(|number| !(number.is_finite() && **number >= 0.0)) {
-            return error(format!("{bad} in a light's table: wavelengths and values are finite and not negative"));
+        for number in value {
+            self.not_negative(number, "value")?;
         }
-        let points: Vec<_> = nm.iter().copied().zip(value.iter().copied()).collect();
+        if let Some([before, after]) = nm.array_windows().find(|[before, after]| before.get_ref() >= after.get_ref()) {
+            let message =
+                format!("wavelengths must grow: {} nm is followed by {} nm", before.get_ref(), after.get_ref());
+            return Err(self.text.error(&after.span(), message));
+        }
+        let points: Vec<_> = nm.iter().zip(value).map(|(nm, value)| (*nm.get_ref(), *value.get_ref())).collect();
         Ok(Spectrum::Table(Table::from_points(&points, Outside::Zero)))
     }
 
-    fn lines(&self, lines: &[[f64; 2]], span: &Range<usize>) -> Result<Spectrum, SceneError> {
-        let fits =
-            |&[nm, power]: &[f64; 2]| (LAMBDA_MIN_NM..=LAMBDA_MAX_NM).contains(&nm) && power.is_finite() && power > 0.0;
-        if let Some([nm, power]) = lines.iter().find(|line| !fits(line)) {
+    fn lines(&self, lines: &[Spanned<Numbers<2>>]) -> Result<Spectrum, SceneError> {
+        let line = |line: &Spanned<Numbers<2>>| {
+            let [nm, power] = line.get_ref().values();
+            if (LAMBDA_MIN_NM..=LAMBDA_MAX_NM).contains(&nm) && power > 0.0 {
+                return Ok(Line { nm, power });
+            }
             let message =
                 format!("a line of power {power} at {nm} nm: lines lie in 360–830 nm and have a power above 0");
-            return Err(self.text.error(span, message));
-        }
-        Ok(Spectrum::Lines(lines.iter().map(|&[nm, power]| Line { nm, power }).collect()))
+            Err(self.text.error(&line.span(), message))
+        };
+        lines.iter().map(line).collect::<Result<_, _>>().map(Spectrum::Lines)
     }
 
     /// The factor that gives a spectrum the strength asked for.
@@ -145,6 +163,3 @@ impl Resolver<'_> {
         Err(self.text.error(span, format!("this spectrum has no light in 360–830 nm, so no factor gives it a {name}")))
     }
 }
-
-/// What the environment counts for against lights of a known area when the strongest is looked for: it surrounds all.
-const ENVIRONMENT_AREA: f64 = 1e3;

@@ -1,11 +1,13 @@
 //! Materials: names become data sets, data sets become spectra of the scene.
 
-use super::Resolver;
+use super::{Resolver, visible_nm};
 use crate::fresnel::FresnelModel;
 use crate::scene::describe::{self, AbsorptionSource, IndexSource, ReflectanceSource};
+use crate::scene::numbers::short;
 use crate::scene::{Inside, Interface, Medium, MediumId, SceneError, Surface, Text};
-use crate::spectrum::{Ior, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Outside, Spectrum, SpectrumError, Table, Upsampler, nearest};
-use std::ops::Range;
+use crate::spectrum::{Ior, Outside, Spectrum, SpectrumError, Table, Upsampler, nearest};
+use std::fmt::Display;
+use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
 use toml::Spanned;
 
@@ -15,7 +17,13 @@ struct Described {
     text: Text,
     material: describe::Material,
     span: Range<usize>,
+    /// Where the scene asks for it.
+    asked_at: Range<usize>,
 }
+
+/// Indices that single precision computes with; in the visible, metals and stones are within 0.01 … 20.
+const N_RANGE: RangeInclusive<f64> = 1e-6..=1e6;
+const K_RANGE: RangeInclusive<f64> = 0.0..=1e6;
 
 impl Resolver<'_> {
     /// The surface of a material by its name in this scene or in the library.
@@ -46,19 +54,14 @@ impl Resolver<'_> {
     fn described(&mut self, name: &Spanned<String>) -> Result<Described, SceneError> {
         let wanted = name.get_ref();
         if let Some(material) = self.own_materials.remove(wanted) {
-            let span = material.span();
-            return Ok(Described {
-                name: wanted.clone(),
-                text: self.text.clone(),
-                material: material.into_inner(),
-                span,
-            });
+            let (text, span, asked_at) = (self.text.clone(), material.span(), name.span());
+            return Ok(Described { name: wanted.clone(), text, material: material.into_inner(), span, asked_at });
         }
         let found = self.library.material(wanted).map_err(|error| self.unknown_material(name, error))?;
         let text = Text::new(found.origin, found.text);
         let material = text.parse()?;
         self.sources.push(text.clone());
-        Ok(Described { name: wanted.clone(), text, material, span: 0..0 })
+        Ok(Described { name: wanted.clone(), text, material, span: 0..0, asked_at: name.span() })
     }
 
     fn unknown_material(&self, name: &Spanned<String>, error: SpectrumError) -> SceneError {
@@ -76,8 +79,7 @@ impl Resolver<'_> {
             (Some(conductor), None, None) => self.conductor(described, conductor.get_ref()),
             (None, Some(dielectric), None) => {
                 let medium = self.medium(described, dielectric)?;
-                self.media.push(medium);
-                let medium = MediumId(self.media.len() as u16 - 1);
+                let medium = self.add_medium(medium, described)?;
                 let model = self.model(dielectric.get_ref().fresnel);
                 Ok(Surface::Dielectric(Interface { medium, model, inside: Inside::General }))
             }
@@ -87,6 +89,14 @@ impl Resolver<'_> {
                 .help("give it one of [conductor], [dielectric], [diffuse]")),
             _ => Err(text.error(span, format!("material `{}` is of more than one kind", described.name))),
         }
+    }
+
+    fn add_medium(&mut self, medium: Medium, described: &Described) -> Result<MediumId, SceneError> {
+        let Ok(id) = u16::try_from(self.media.len()) else {
+            return Err(self.text.error(&described.asked_at, format!("more than {} dielectric materials", u16::MAX)));
+        };
+        self.media.push(medium);
+        Ok(MediumId(id))
     }
 
     /// The render's model wins over the material's, so that models can be compared by one word.
@@ -106,20 +116,18 @@ impl Resolver<'_> {
     }
 
     fn ior(&mut self, described: &Described, source: &Spanned<IndexSource>) -> Result<Arc<Ior>, SceneError> {
-        let text = &described.text;
-        match source.get_ref() {
+        let error = |message: &dyn Display| described.text.error(&source.span(), message);
+        let ior = match source.get_ref() {
             IndexSource::Name(name) => {
-                let found = self.library.ior(name, text.base()).map_err(|error| text.error(&source.span(), error))?;
+                let found = self.library.ior(name, described.text.base()).map_err(|fault| error(&fault))?;
                 self.note_data(&described.name, &found.about);
-                Ok(found)
+                found
             }
-            &IndexSource::Constant { n, k } => {
-                if !(n > 0.0 && n.is_finite() && k >= 0.0 && k.is_finite()) {
-                    let message = format!("n = {n}, k = {k}: n must be above 0, k not negative, both finite");
-                    return Err(text.error(&source.span(), message));
-                }
-                Ok(Arc::new(Ior::constant(&described.name, n, k)))
-            }
+            &IndexSource::Constant { n, k } => Arc::new(Ior::constant(&described.name, n, k)),
+        };
+        match index_fault(&ior) {
+            Some(fault) => Err(error(&fault)),
+            None => Ok(ior),
         }
     }
 
@@ -138,7 +146,13 @@ impl Resolver<'_> {
             None => None,
             Some(per_metre) => {
                 let metres = self.meters_per_unit.ok_or_else(|| self.needs_scale(described))?;
-                Some(self.spectra.add(per_metre.scaled(metres)))
+                let per_unit = per_metre.scaled(metres);
+                if visible_nm().any(|nm| !(per_unit.at(nm) as f32).is_finite()) {
+                    let message =
+                        format!("`{}` absorbs more in one scene unit than can be computed with", described.name);
+                    return Err(self.text.error(&described.asked_at, message).help("is `meters_per_unit` right?"));
+                }
+                Some(self.spectra.add(per_unit))
             }
         };
         let dispersive = !is_constant(&ior.n);
@@ -147,7 +161,9 @@ impl Resolver<'_> {
 
     fn needs_scale(&self, described: &Described) -> SceneError {
         let message = format!("`{}` absorbs light, so the scene must say how large it is", described.name);
-        self.text.whole(message).help("add `meters_per_unit = …` at the top, 0.001 if the scene is in millimetres")
+        self.text
+            .error(&described.asked_at, message)
+            .help("add `meters_per_unit = …` at the top, 0.001 if the scene is in millimetres")
     }
 
     /// In m⁻¹; `None` where nothing is absorbed.
@@ -215,18 +231,32 @@ fn roughness(text: &Text, conductor: &describe::Conductor) -> Result<f64, SceneE
     Ok(if name == "roughness" { value } else { value * value })
 }
 
+/// What is wrong with an index: a constant, or data with a formula that does not hold over the whole visible.
+fn index_fault(ior: &Ior) -> Option<String> {
+    visible_nm().find_map(|nm| {
+        let (n, k) = ior.at(nm);
+        let (name, value, range) = match (N_RANGE.contains(&n), K_RANGE.contains(&k)) {
+            (true, true) => return None,
+            (false, _) => ("n", n, N_RANGE),
+            (true, false) => ("k", k, K_RANGE),
+        };
+        let at = if is_constant(&ior.n) && is_constant(&ior.k) { String::new() } else { format!(" at {nm} nm") };
+        let [value, low, high] = [value, *range.start(), *range.end()].map(short);
+        Some(format!("{name} is {value}{at}: it must lie between {low} and {high}"))
+    })
+}
+
 /// Whether a spectrum is the same at every wavelength; tables of one value are.
 fn is_constant(spectrum: &Spectrum) -> bool {
-    let first = spectrum.at(LAMBDA_MIN_NM);
-    let step = |i: u32| LAMBDA_MIN_NM + f64::from(i);
-    (1..=(LAMBDA_MAX_NM - LAMBDA_MIN_NM) as u32).all(|i| spectrum.at(step(i)) == first)
+    let mut values = visible_nm().map(|nm| spectrum.at(nm).to_bits());
+    let first = values.next();
+    values.all(|value| Some(value) == first)
 }
 
 /// α = 4πk/λ in m⁻¹ from k, at every nanometre; `None` where k is zero.
 fn absorption_of_k(k: &Spectrum) -> Option<Spectrum> {
-    let points: Vec<(f64, f64)> = (LAMBDA_MIN_NM as u32..=LAMBDA_MAX_NM as u32)
-        .map(|nm| (f64::from(nm), 4.0 * std::f64::consts::PI * k.at(f64::from(nm)) / (f64::from(nm) * 1e-9)))
-        .collect();
+    let alpha = |nm: f64| 4.0 * std::f64::consts::PI * k.at(nm) / (nm * 1e-9);
+    let points: Vec<(f64, f64)> = visible_nm().map(|nm| (nm, alpha(nm))).collect();
     let absorbs = points.iter().any(|&(_, alpha)| alpha > 0.0);
     absorbs.then(|| Spectrum::Table(Table::from_points(&points, Outside::Hold)))
 }

@@ -1,105 +1,112 @@
 //! Shapes: sizes checked, placed in the world.
 
-use super::Resolver;
+use super::{Resolver, vector};
 use crate::geometry::{Brilliant, Convex, Disk, GeometryError, Plane, Rectangle, Shape, Sphere, StepCut};
 use crate::scene::SceneError;
 use crate::scene::describe;
+use crate::scene::numbers::{Finite, Length};
 use glam::{Affine3A, DVec3, EulerRot, Quat, Vec3};
-
-fn vector(v: [f64; 3]) -> Vec3 {
-    DVec3::from_array(v).as_vec3()
-}
+use toml::Spanned;
 
 impl Resolver<'_> {
     pub fn shape(&self, object: &describe::Object) -> Result<Shape, SceneError> {
-        let span = object.shape.span();
-        let shape = build(object.shape.get_ref()).map_err(|error| self.text.error(&span, error))?;
+        let shape = build(object.shape.get_ref()).map_err(|error| self.misshapen(error, &object.shape))?;
         let Some(transform) = &object.transform else { return Ok(shape) };
         let affine = affine(transform.get_ref());
         shape.transformed(&affine).map_err(|error| self.text.error(&transform.span(), error))
+    }
+
+    fn misshapen(&self, error: GeometryError, shape: &Spanned<describe::Shape>) -> SceneError {
+        match (&error, shape.get_ref()) {
+            (GeometryError::BadPlane { index }, describe::Shape::Convex(convex)) => self
+                .text
+                .error(&convex.planes[*index].span(), "the normal of this plane, its first three numbers, is zero"),
+            _ => self.text.error(&shape.span(), error),
+        }
     }
 }
 
 fn build(shape: &describe::Shape) -> Result<Shape, GeometryError> {
     Ok(match shape {
-        describe::Shape::Sphere(sphere) => Shape::Sphere(Sphere::new(vector(sphere.center), sphere.radius as f32)?),
+        describe::Shape::Sphere(sphere) => {
+            Shape::Sphere(Sphere::new(vector(sphere.center.values()), sphere.radius.0 as f32)?)
+        }
         describe::Shape::Rectangle(rectangle) => {
-            let [u, v] = edges(rectangle.normal)?;
-            let [width, height] = rectangle.size.map(|side| side as f32);
-            positive("the rectangle's size", rectangle.size)?;
-            Shape::Rectangle(Rectangle::new(vector(rectangle.center), u * width, v * height)?)
+            let [u, v] = edges(rectangle.normal.values())?;
+            let [width, height] = rectangle.size.values().map(|side| side as f32);
+            Shape::Rectangle(Rectangle::new(vector(rectangle.center.values()), u * width, v * height)?)
         }
         describe::Shape::Disk(disk) => {
-            Shape::Disk(Disk::facing(vector(disk.center), vector(disk.normal), disk.radius as f32)?)
+            let [center, normal] = [disk.center, disk.normal].map(|v| vector(v.values()));
+            Shape::Disk(Disk::facing(center, normal, disk.radius.0 as f32)?)
         }
         describe::Shape::Box(cuboid) => {
-            positive("the box's size", cuboid.size)?;
-            Convex::cuboid(vector(cuboid.center), vector(cuboid.size) / 2.0)?.into()
+            Convex::cuboid(vector(cuboid.center.values()), vector(cuboid.size.values()) / 2.0)?.into()
         }
         describe::Shape::Convex(convex) => {
-            Convex::from_planes(&convex.planes.iter().map(half_space).collect::<Vec<_>>())?.into()
+            let planes: Vec<_> = convex.planes.iter().map(|plane| half_space(plane.get_ref().values())).collect();
+            Convex::from_planes(&planes)?.into()
         }
         describe::Shape::Brilliant(cut) => brilliant(cut).solid()?.into(),
         describe::Shape::StepCut(cut) => step_cut(cut).solid()?.into(),
     })
 }
 
-fn positive<const N: usize>(what: &'static str, sizes: [f64; N]) -> Result<(), GeometryError> {
-    match sizes.into_iter().find(|size| !(*size > 0.0)) {
-        Some(value) => Err(GeometryError::NotPositive { what, value }),
-        None => Ok(()),
-    }
-}
-
 /// Two unit vectors that span the plane of a rectangle; its front faces the normal, its width stays level.
 fn edges(normal: [f64; 3]) -> Result<[Vec3; 2], GeometryError> {
-    let what = "the normal";
-    let normal = DVec3::from_array(normal);
-    if !normal.is_finite() {
-        return Err(GeometryError::NotFinite { what });
-    }
-    let normal = normal.try_normalize().ok_or(GeometryError::NotPositive { what, value: 0.0 })?;
+    let flat = GeometryError::NotPositive { what: "the length of the rectangle's normal", value: 0.0 };
+    let normal = DVec3::from_array(normal).try_normalize().ok_or(flat)?;
     let level = DVec3::Z.cross(normal);
     let u = if level.length() > 1e-9 { level.normalize() } else { DVec3::X };
     Ok([u.as_vec3(), normal.cross(u).as_vec3()])
 }
 
 fn affine(transform: &describe::Transform) -> Affine3A {
-    let scale = transform.scale.as_ref().map_or([1.0; 3], |scale| scale.get_ref().0);
-    let [x, y, z] = transform.rotate.unwrap_or_default().map(|degrees| degrees.to_radians() as f32);
+    let scale = transform.scale.as_ref().map_or([1.0; 3], |scale| scale.get_ref().0.values());
+    let [x, y, z] = transform.rotate.unwrap_or_default().values().map(|degrees| degrees.to_radians() as f32);
     // Extrinsic rotations about the fixed axes x, then y, then z.
     let rotation = Quat::from_euler(EulerRot::ZYX, z, y, x);
-    Affine3A::from_scale_rotation_translation(vector(scale), rotation, vector(transform.translate.unwrap_or_default()))
+    Affine3A::from_scale_rotation_translation(
+        vector(scale),
+        rotation,
+        vector(transform.translate.unwrap_or_default().values()),
+    )
 }
 
-fn half_space(&[x, y, z, offset]: &[f64; 4]) -> Plane {
+fn half_space([x, y, z, offset]: [f64; 4]) -> Plane {
     Plane::new(DVec3::new(x, y, z), offset)
+}
+
+/// A proportion, or the usual one.
+fn or(given: Option<Finite>, usual: f64) -> f64 {
+    given.map_or(usual, |Finite(value)| value)
 }
 
 fn brilliant(cut: &describe::Brilliant) -> Brilliant {
     let usual = Brilliant::default();
     Brilliant {
-        diameter: cut.diameter,
-        table: cut.table.unwrap_or(usual.table),
-        crown_angle: cut.crown_angle.unwrap_or(usual.crown_angle),
-        pavilion_angle: cut.pavilion_angle.unwrap_or(usual.pavilion_angle),
-        girdle: cut.girdle.unwrap_or(usual.girdle),
-        star_length: cut.star_length.unwrap_or(usual.star_length),
-        lower_half_length: cut.lower_half_length.unwrap_or(usual.lower_half_length),
-        culet: cut.culet.unwrap_or(usual.culet),
+        diameter: cut.diameter.0,
+        table: or(cut.table, usual.table),
+        crown_angle: or(cut.crown_angle, usual.crown_angle),
+        pavilion_angle: or(cut.pavilion_angle, usual.pavilion_angle),
+        girdle: or(cut.girdle, usual.girdle),
+        star_length: or(cut.star_length, usual.star_length),
+        lower_half_length: or(cut.lower_half_length, usual.lower_half_length),
+        culet: or(cut.culet, usual.culet),
         girdle_facets: cut.girdle_facets.unwrap_or(usual.girdle_facets),
     }
 }
 
 fn step_cut(cut: &describe::StepCut) -> StepCut {
     let usual = StepCut::default();
+    let (Length(width), Length(length)) = (cut.width, cut.length);
     StepCut {
-        width: cut.width,
-        length_ratio: cut.length / cut.width,
-        corner: cut.corner.unwrap_or(usual.corner),
-        table: cut.table.unwrap_or(usual.table),
-        crown_angles: cut.crown_angles.unwrap_or(usual.crown_angles),
-        pavilion_angles: cut.pavilion_angles.unwrap_or(usual.pavilion_angles),
-        girdle: cut.girdle.unwrap_or(usual.girdle),
+        width,
+        length_ratio: length / width,
+        corner: or(cut.corner, usual.corner),
+        table: or(cut.table, usual.table),
+        crown_angles: cut.crown_angles.map_or(usual.crown_angles, |angles| angles.values()),
+        pavilion_angles: cut.pavilion_angles.map_or(usual.pavilion_angles, |angles| angles.values()),
+        girdle: or(cut.girdle, usual.girdle),
     }
 }

@@ -1,0 +1,101 @@
+//! Objects: each a shape of a material, some of them lights.
+
+use super::Resolver;
+use crate::geometry::{Shape, ShapeId, World};
+use crate::light::Emitter;
+use crate::scene::describe;
+use crate::scene::{Inside, Interface, Object, SceneError, Surface};
+use toml::Spanned;
+
+/// All objects of a scene, in the order of the file.
+#[derive(Default)]
+pub struct Objects {
+    pub objects: Vec<Object>,
+    pub shapes: Vec<Shape>,
+    pub emitters: Vec<Emitter>,
+}
+
+impl Resolver<'_> {
+    pub fn objects(&mut self, described: &[Spanned<describe::Object>]) -> Result<Objects, SceneError> {
+        let mut all = Objects::default();
+        for (index, described) in described.iter().enumerate() {
+            let object = described.get_ref();
+            let name = object.name.clone().unwrap_or_else(|| format!("object {}", index + 1));
+            let shape = self.shape(object)?;
+            let surface = self.surface_of(described, &name)?;
+            if let Surface::Dielectric(_) = self.surfaces[surface as usize] {
+                self.check_dielectric(object, &shape, &name)?;
+            }
+            if let Some(emission) = &object.emission {
+                all.emitters.push(self.emitter(emission.get_ref(), &name, ShapeId(index as u32), &shape)?);
+            }
+            let material = object.material.as_ref().map_or("light", |material| material.get_ref()).to_owned();
+            all.objects.push(Object { name, material, surface });
+            all.shapes.push(shape);
+        }
+        Ok(all)
+    }
+
+    fn surface_of(&mut self, described: &Spanned<describe::Object>, name: &str) -> Result<u32, SceneError> {
+        let object = described.get_ref();
+        match &object.material {
+            Some(material) => self.material(material),
+            None if object.emission.is_some() => Ok(self.black()),
+            None => {
+                let message = format!("{name} has neither a material nor an emission");
+                let error = self.text.error(&described.span(), message);
+                Err(error.help("add `material = \"…\"`: `spectrel list materials` shows them"))
+            }
+        }
+    }
+
+    fn emitter(
+        &mut self,
+        emission: &describe::Emission,
+        name: &str,
+        id: ShapeId,
+        shape: &Shape,
+    ) -> Result<Emitter, SceneError> {
+        let light = self.emission(emission, name)?;
+        let two_sided = emission.two_sided && !shape.is_solid();
+        let power = light.luminance * f64::from(shape.area()) * if two_sided { 2.0 } else { 1.0 };
+        self.white_candidates.push((power, light.id));
+        Ok(Emitter { shape: id, radiance: light.id, two_sided, power })
+    }
+
+    fn check_dielectric(&self, object: &describe::Object, shape: &Shape, name: &str) -> Result<(), SceneError> {
+        if !shape.is_solid() {
+            let message = format!("{name} is flat, but a dielectric needs an inside");
+            return Err(self.text.error(&object.shape.span(), message).help("use a thin `box` instead"));
+        }
+        match &object.emission {
+            Some(emission) => {
+                Err(self.text.error(&emission.span(), format!("{name} is a dielectric: it cannot shine")))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// The surface of what only shines.
+    fn black(&mut self) -> u32 {
+        let known = self.surfaces.iter().position(|surface| *surface == Surface::Black);
+        known.unwrap_or_else(|| {
+            self.surfaces.push(Surface::Black);
+            self.surfaces.len() - 1
+        }) as u32
+    }
+
+    /// Marks the convex dielectrics that nothing else reaches into: their insides are traced without asking the scene.
+    pub fn trace_alone_where_possible(&mut self, world: &World, objects: &[Object]) {
+        let shapes = world.shapes();
+        let reached = |solid: usize| {
+            shapes.iter().enumerate().any(|(other, shape)| other != solid && shapes[solid].may_touch_inside(shape))
+        };
+        for (index, surface) in self.surfaces.iter_mut().enumerate() {
+            let Surface::Dielectric(Interface { inside, .. }) = surface else { continue };
+            let mut users = (0..shapes.len()).filter(|&shape| objects[shape].surface as usize == index);
+            let alone = users.all(|shape| matches!(shapes[shape], Shape::Convex(_)) && !reached(shape));
+            *inside = if alone { Inside::Alone } else { Inside::General };
+        }
+    }
+}
