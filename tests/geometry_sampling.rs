@@ -90,12 +90,12 @@ fn inverse_density_averages_to_the_solid_angle() {
     }
 }
 
-/// Rectangles again, against the formula of A. Van Oosterom and J. Strackee (IEEE Trans. Biomed. Eng. 30, 1983).
+/// Rectangles near enough to be sampled by solid angle, against the formula of A. Van Oosterom and J. Strackee (IEEE Trans. Biomed. Eng. 30, 1983).
 #[test]
 fn rectangles_know_their_solid_angle() {
     let rectangle = Rectangle::new(Vec3::new(0.2, 0.1, 0.0), Vec3::X * 1.2, Vec3::Y * 0.7).unwrap();
     for (x, y, z) in
-        [(0.5, -0.3, 0.8), (0.3, 0.2, 0.01), (2.0, 0.3, 0.02), (9.0, 1.0, 1e-3), (30.0, -20.0, 40.0), (0.1, 0.2, -1e-4)]
+        [(0.5, -0.1, 0.5), (0.3, 0.2, 0.01), (1.0, 0.3, 0.02), (0.9, 0.6, 1e-3), (-0.3, 0.4, -0.3), (0.1, 0.2, -1e-4)]
     {
         let reference = Vec3::new(x, y, z);
         let triangle = |i: usize, j: usize| {
