@@ -62,6 +62,7 @@ const STONES: [(&str, &str); 4] = [
 fn clear_solids_are_invisible() {
     for (name, objects) in STONES {
         let (z, error) = (z_in_furnace(objects), error_in_furnace(objects));
+        println!("{name} in a furnace: z = {z:.1}, off by {error:.1e}");
         assert!(z < CRITICAL || error < 2e-6, "{name}: z = {z:.1}, relative error {error:.1e}");
     }
 }
@@ -135,6 +136,7 @@ fn gold_error(factor: f64) -> f64 {
 #[test]
 fn a_rough_gold_sphere_shows_its_albedo() {
     let error = gold_error(1.0);
+    println!("rough gold sphere in a furnace: off by {error:.1e}");
     assert!(error < 2e-3, "relative error {error:.1e}");
 }
 

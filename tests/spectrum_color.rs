@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use spectrel::spectrum::{
-    ColorMatching, Daylight, Density, Library, Line, Nodes, Observer, Outside, RgbSpace, Spectrum, Table, Upsampler,
-    bradford, ciede2000, lab_from_xyz, luminance, tristimulus, tristimulus_1nm, white_xyz, white_xyz_1nm,
+    Arena, ColorMatching, Daylight, Density, Library, Line, NODE_COUNT, Nodes, Observer, Outside, RgbSpace, Spectrum,
+    Table, Upsampler, bradford, ciede2000, lab_from_xyz, luminance, tristimulus, tristimulus_1nm, white_xyz,
+    white_xyz_1nm,
 };
 
 fn library() -> Library {
@@ -160,10 +161,12 @@ fn sets_estimate_the_luminance_in_candela() {
     let observer = observer(&library);
     let nodes = Nodes::new(&Density::visible());
     let lamp = Spectrum::Blackbody { kelvin: 2856.0 };
-    let (values, weights) = (nodes.tabulate_sets::<8>(&lamp), nodes.observer_sets::<8>(&observer));
-    let estimate: f64 =
-        values.iter().zip(&weights).map(|(value, [_, y, _])| f64::from((*value * *y).sum())).sum::<f64>()
-            / values.len() as f64;
+    let mut arena = Arena::default();
+    let id = arena.add(lamp.clone());
+    let mut tables = arena.tabulate(&nodes, 8);
+    let [_, y, _] = tables.push_observer(&nodes.observer_weights(&observer));
+    let set = |set: u32| f64::from((tables.get::<8>(id, 8 * set) * tables.get::<8>(y, 8 * set)).sum());
+    let estimate = (0..tables.sets()).map(set).sum::<f64>() / f64::from(tables.sets());
     assert!((estimate / luminance(&lamp, &observer) - 1.0).abs() < 1e-5);
 }
 
@@ -173,7 +176,7 @@ fn wavelengths_follow_the_density() {
     let nodes = Nodes::new(&density);
     // Sets drawn uniformly show each node equally often; bin the nodes and compare with the density: χ² per bin.
     let bins = 47;
-    let count = Nodes::set_count::<1>();
+    let count = NODE_COUNT;
     let mut seen = vec![0.0; bins];
     (0..count).for_each(|i| seen[((nodes.wavelength_nm(i) - 360.0) / 10.0) as usize] += 1.0);
     for (bin, seen) in seen.iter().enumerate() {

@@ -44,6 +44,7 @@ fn largest_error(rgb: [f64; 3]) -> f64 {
 fn a_perfect_reflector_is_white_under_smooth_illuminants() {
     for name in ["A", "D50", "D65", "E"] {
         let rgb = mean_rgb(&perfect_reflector(name));
+        println!("perfect reflector under {name}: off by {:.1e}", largest_error(rgb));
         assert!(largest_error(rgb) < 2e-5, "{name}: {rgb:?}");
     }
 }
@@ -53,6 +54,7 @@ fn a_perfect_reflector_is_white_under_lamps() {
     let lamps = (1..=12).map(|i| format!("FL{i}")).chain((1..=5).map(|i| format!("LED-B{i}")));
     for name in lamps {
         let rgb = mean_rgb(&perfect_reflector(&name));
+        println!("perfect reflector under {name}: off by {:.1e}", largest_error(rgb));
         assert!(largest_error(rgb) < 1e-4, "{name}: {rgb:?}");
     }
 }
@@ -108,6 +110,7 @@ fn a_mirror_shows_its_f0() {
         let (rendered, integrated) = (f0_rendered(material), f0_integrated(ior));
         for channel in 0..3 {
             let error = (rendered[channel] - integrated[channel]).abs();
+            println!("F0 of {material}, channel {channel}: rendered off by {error:.1e}");
             assert!(error < 1e-3, "{material} channel {channel}: {rendered:?} against {integrated:?}");
         }
     }

@@ -77,6 +77,6 @@ mod tests {
         let w = Lanes::<4>::ONE;
         assert_eq!(choose(&w, &Lanes::ONE, 0.9999), Choice { reflect: true, probability: 1.0, weight: w });
         assert_eq!(choose(&w, &Lanes::ZERO, 0.0), Choice { reflect: false, probability: 1.0, weight: w });
-        assert!(choose(&Lanes::<4>::ZERO, &w, 0.5).weight.is_zero());
+        assert_eq!(choose(&Lanes::<4>::ZERO, &w, 0.5).weight, Lanes::ZERO);
     }
 }

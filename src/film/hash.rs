@@ -1,31 +1,10 @@
 //! A stable fingerprint of bytes.
 
-/// FNV-1a with 64 bits (Fowler, Noll and Vo): the same on every machine and in every version. It tells accidental
-/// differences, such as another scene or a damaged file; it is no protection against someone who wants equal hashes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct StableHash(u64);
-
-impl Default for StableHash {
-    fn default() -> Self {
-        Self(0xcbf2_9ce4_8422_2325)
-    }
-}
-
-impl StableHash {
-    pub fn update(&mut self, bytes: &[u8]) {
-        self.0 = bytes.iter().fold(self.0, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3));
-    }
-
-    pub fn finish(self) -> u64 {
-        self.0
-    }
-}
-
-/// [`StableHash`] of bytes in one piece.
+/// FNV-1a with 64 bits (Fowler, Noll and Vo 1991): the same on every machine and in every version. It tells accidental
+/// differences, such as another scene; it is no protection against someone who wants equal hashes.
 pub fn fnv1a_64(bytes: &[u8]) -> u64 {
-    let mut hash = StableHash::default();
-    hash.update(bytes);
-    hash.finish()
+    let step = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, step)
 }
 
 #[cfg(test)]

@@ -7,7 +7,6 @@
 //! - [`window`]: which part of the full image a film covers, and its tiles
 //! - [`fixed`]: one number to fixed point
 //! - [`pixel`]: the sums of one pixel
-//! - [`store`]: films as files, for checkpoints and for the parts of a job
 //! - [`exposure`]: which luminance becomes display white
 //! - [`develop`]: exposure → white balance → RGB
 //! - [`gamut`]: what a display cannot show, counted and, for PNG, moved inside
@@ -19,14 +18,13 @@ pub mod fixed;
 pub mod gamut;
 pub mod hash;
 pub mod pixel;
-pub mod store;
 pub mod window;
 
 pub use develop::{Develop, Developed};
 pub use error::FilmError;
 pub use exposure::Exposure;
 pub use gamut::{Gamut, GamutReport};
-pub use hash::{StableHash, fnv1a_64};
+pub use hash::fnv1a_64;
 pub use pixel::Pixel;
 pub use window::Window;
 

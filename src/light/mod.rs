@@ -94,11 +94,6 @@ impl Lights {
         &self.emitters
     }
 
-    /// Whether nothing shines at all.
-    pub fn is_dark(&self) -> bool {
-        self.environment == Environment::Dark && self.emitters.iter().all(|emitter| emitter.power == 0.0)
-    }
-
     fn probability(&self, index: usize) -> f32 {
         let before = if index == 0 { 0.0 } else { self.cumulative[index - 1] };
         self.cumulative[index] - before

@@ -21,7 +21,7 @@ impl Kernel<'_> {
         sampler: &mut Sampler,
         radiance: &mut Lanes<N>,
     ) -> Outcome {
-        let &Interface { medium, model, inside } = interface;
+        let &Interface { medium, model } = interface;
         let entering = hit.side == Side::Outside;
         let (from, to) = match entering {
             true => (path.media.current(), medium),
@@ -43,7 +43,7 @@ impl Kernel<'_> {
             false => path.media.leave(medium),
         }
         let parts = N > 1 && (self.scene.medium(from).dispersive || self.scene.medium(to).dispersive);
-        let into_stone = entering && inside == Inside::Alone && (parts || N == 1);
+        let into_stone = entering && (parts || N == 1) && self.scene.object(hit.shape).inside == Inside::Alone;
         if !parts && !into_stone {
             let direction = refract(path.ray.direction, normal, n1[0] / n2[0], cos_theta_i, boundary.cos_theta_t[0]);
             path.ray = Ray::leaving(hit, hit.side.opposite(), direction);

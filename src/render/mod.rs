@@ -13,7 +13,7 @@ use crate::film::{Film, Pixel};
 use crate::sampler::{self, PixelSamples, Sampler};
 use crate::scene::describe::SamplerName;
 use crate::scene::{Needs, Scene};
-use crate::spectrum::{LUMENS_PER_WATT, NODE_COUNT, Nodes, SpectrumId, Tables};
+use crate::spectrum::{Nodes, SpectrumId, Tables};
 use path::Path;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -37,7 +37,7 @@ pub struct Kernel<'a> {
     scene: &'a Scene,
     needs: &'a Needs,
     tables: Tables,
-    /// X, Y and Z per spectral radiance: observer × node width × 683 lm/W.
+    /// X, Y and Z in cd/m² per spectral radiance.
     observer: [SpectrumId; 3],
     max_depth: u32,
     sampler: sampler::Kind,
@@ -47,12 +47,7 @@ impl<'a> Kernel<'a> {
     pub fn new(scene: &'a Scene, needs: &'a Needs) -> Self {
         let nodes = Nodes::new(&needs.wavelength_density);
         let mut tables = scene.spectra.tabulate(&nodes, scene.settings.lanes as usize);
-        let scale = f64::from(tables.sets()) * LUMENS_PER_WATT;
-        let observer = [0, 1, 2].map(|axis| {
-            let weight =
-                |node| nodes.weight_nm(node) * scene.picture.observer.at(nodes.wavelength_nm(node))[axis] * scale;
-            tables.push(&(0..NODE_COUNT).map(|node| weight(node) as f32).collect::<Vec<_>>())
-        });
+        let observer = tables.push_observer(&nodes.observer_weights(&scene.picture.observer));
         let sampler = match scene.settings.sampler {
             SamplerName::Sobol => sampler::Kind::Sobol,
             SamplerName::Independent => sampler::Kind::Independent,

@@ -46,6 +46,8 @@ pub struct Object {
     pub material: String,
     /// Index into [`Scene::surfaces`].
     pub surface: u32,
+    /// For dielectrics; nothing is inside of other objects.
+    pub inside: Inside,
 }
 
 /// What happens to light at an object.
@@ -71,7 +73,6 @@ pub struct Interface {
     /// What fills the solid.
     pub medium: MediumId,
     pub model: FresnelModel,
-    pub inside: Inside,
 }
 
 /// How the inside of a dielectric solid is traced.

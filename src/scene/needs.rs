@@ -105,8 +105,8 @@ fn dispersion(scene: &Scene) -> Decision {
 }
 
 fn stones(scene: &Scene) -> Decision {
-    let alone = |surface: &Surface| matches!(surface, Surface::Dielectric(Interface { inside: Inside::Alone, .. }));
-    match objects_with(scene, alone) {
+    let alone = scene.objects.iter().filter(|object| object.inside == Inside::Alone);
+    match alone.map(|object| object.name.as_str()).collect::<Vec<_>>() {
         names if names.is_empty() => decision("stone kernel", false, "no convex dielectric solid with nothing in it"),
         names => {
             let reason = format!("nothing reaches into {}: traced facet by facet, all lanes at once", listed(&names));

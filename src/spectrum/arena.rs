@@ -1,6 +1,6 @@
 //! The spectra of a scene, each once, and their values at the nodes that a render uses.
 
-use super::{Lanes, NODE_COUNT, Nodes, Spectrum};
+use super::{LUMENS_PER_WATT, Lanes, NODE_COUNT, Nodes, Spectrum, Xyz};
 
 /// One spectrum of an [`Arena`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -62,6 +62,13 @@ impl Tables {
         id
     }
 
+    /// Appends what turns the spectral radiances of a set (W m⁻² sr⁻¹ nm⁻¹) into X, Y and Z (cd/m²), given the observer's
+    /// weight at each node in nm: the mean over the sets of the sums over lanes is the integral.
+    pub fn push_observer(&mut self, by_node: &[Xyz]) -> [SpectrumId; 3] {
+        let scale = f64::from(self.sets()) * LUMENS_PER_WATT;
+        [0, 1, 2].map(|axis| self.push(&by_node.iter().map(|weight| (weight[axis] * scale) as f32).collect::<Vec<_>>()))
+    }
+
     /// How many sets of wavelengths there are.
     pub fn sets(&self) -> u32 {
         (NODE_COUNT / self.lanes) as u32
@@ -72,5 +79,45 @@ impl Tables {
         let start = id.0 as usize * NODE_COUNT + offset as usize;
         let lanes = &self.values[start..start + N];
         Lanes(std::array::from_fn(|lane| lanes[lane]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Density, Line};
+    use super::*;
+
+    #[test]
+    fn equal_spectra_are_kept_once() {
+        let mut arena = Arena::default();
+        let ids = [1.0, 2.0, 1.0].map(|value| arena.add(Spectrum::Constant(value)));
+        assert_eq!((ids[0], arena.len()), (ids[2], 2));
+        assert_eq!(arena.get(ids[1]), &Spectrum::Constant(2.0));
+    }
+
+    #[test]
+    fn sets_of_one_and_of_eight_are_the_same_nodes() {
+        let nodes = Nodes::new(&Density::visible());
+        let mut arena = Arena::default();
+        arena.add(Spectrum::Constant(3.0));
+        let id = arena.add(Spectrum::Blackbody { kelvin: 3000.0 });
+        let (ones, eights) = (arena.tabulate(&nodes, 1), arena.tabulate(&nodes, 8));
+        assert_eq!((ones.sets(), eights.sets()), (2048, 256));
+        for set in 0..256 {
+            let together = eights.get::<8>(id, set * 8);
+            for lane in 0..8 {
+                assert_eq!(together[lane], ones.get::<1>(id, set + 256 * lane as u32)[0]);
+                assert_eq!(together[lane], eights.get::<1>(id, set * 8 + lane as u32)[0]);
+            }
+        }
+    }
+
+    #[test]
+    fn every_set_of_eight_sees_each_of_a_few_lines() {
+        let nodes = Nodes::new(&Density::with_lines([546.074, 589.3]));
+        let mut arena = Arena::default();
+        let id = arena.add(Spectrum::Lines(vec![Line { nm: 546.074, power: 1.0 }]));
+        let tables = arena.tabulate(&nodes, 8);
+        assert!((0..256).all(|set| tables.get::<8>(id, set * 8).max() > 0.0));
     }
 }

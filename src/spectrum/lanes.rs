@@ -49,11 +49,6 @@ impl<const N: usize> Lanes<N> {
     pub fn max(self) -> f32 {
         self.0.iter().fold(f32::NEG_INFINITY, |max, &value| if value > max { value } else { max })
     }
-
-    #[inline]
-    pub fn is_zero(self) -> bool {
-        self.0.iter().all(|&value| value == 0.0)
-    }
 }
 
 macro_rules! lanewise {

@@ -10,7 +10,7 @@
 //! Journal of WSCG 17 (2009), p(λ) ∝ sech²(0.0072 (λ − 538)) on 360–830 nm. Emission lines get narrow boxes of their own
 //! in it, and with them nodes; they are then lines 0.1 nm wide, about what lamps have.
 
-use super::{ColorMatching, LAMBDA_MAX_NM, LAMBDA_MIN_NM, LUMENS_PER_WATT, Lanes, Line, Spectrum, Xyz};
+use super::{ColorMatching, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Line, Spectrum, Xyz};
 
 /// How many nodes there are: M.
 pub const NODE_COUNT: usize = 2048;
@@ -143,23 +143,6 @@ impl Nodes {
         self.edges_nm[i + 1] - self.edges_nm[i]
     }
 
-    /// How many sets of N nodes there are. N divides [`NODE_COUNT`].
-    pub const fn set_count<const N: usize>() -> usize {
-        const { assert!(N > 0 && NODE_COUNT.is_multiple_of(N), "the lanes of a set divide the nodes") };
-        NODE_COUNT / N
-    }
-
-    /// The node of a lane of a set.
-    #[inline]
-    pub const fn node_of<const N: usize>(set: usize, lane: usize) -> usize {
-        set + lane * Self::set_count::<N>()
-    }
-
-    /// The wavelengths of a set, nm.
-    pub fn set_wavelengths_nm<const N: usize>(&self, set: usize) -> [f64; N] {
-        std::array::from_fn(|lane| self.wavelength_nm(Self::node_of::<N>(set, lane)))
-    }
-
     /// The value of a spectrum at each node: its mean over the cell, as far as it is straight between its breakpoints.
     /// (Values at the middles of the cells: XYZ of D50 off by 1.4e-6 instead of 3.9e-7, for the cells with a bend in them.)
     /// A line's power is spread over the nodes of its box, or over its two neighbours if the density gives it no box, such
@@ -188,12 +171,6 @@ impl Nodes {
         self.values(spectrum).into_iter().map(|value| value as f32).collect()
     }
 
-    /// The values of a spectrum by set: one load serves a path.
-    pub fn tabulate_sets<const N: usize>(&self, spectrum: &Spectrum) -> Vec<Lanes<N>> {
-        let values = self.values(spectrum);
-        Self::by_set(|i| values[i])
-    }
-
     /// ∫ (x̄, ȳ, z̄) dλ over the cell of each node, nm: exact, so that what is flat in a cell counts exactly.
     pub fn observer_weights(&self, observer: &ColorMatching) -> Vec<Xyz> {
         let cell = |i: usize| {
@@ -205,15 +182,6 @@ impl Nodes {
             sum
         };
         (0..NODE_COUNT).map(cell).collect()
-    }
-
-    /// By set, (M/N) 683 times the observer's weights: the lanes' spectral radiances (W m⁻² sr⁻¹ nm⁻¹) times these,
-    /// summed, estimate XYZ in cd/m²; their mean over the sets is the integral.
-    pub fn observer_sets<const N: usize>(&self, observer: &ColorMatching) -> Vec<[Lanes<N>; 3]> {
-        let scale = Self::set_count::<N>() as f64 * LUMENS_PER_WATT;
-        let weights = self.observer_weights(observer);
-        let [x, y, z] = [0, 1, 2].map(|c| Self::by_set(|i| weights[i][c] * scale));
-        x.into_iter().zip(y).zip(z).map(|((x, y), z)| [x, y, z]).collect()
     }
 
     /// XYZ of a spectrum by the nodes, without the factor 683: what a render of it converges to.
@@ -237,11 +205,6 @@ impl Nodes {
             let end = inside.get(piece).copied().unwrap_or(high);
             (0.5 * (start + end), end - start)
         })
-    }
-
-    fn by_set<const N: usize>(value: impl Fn(usize) -> f64) -> Vec<Lanes<N>> {
-        let lane = |set, lane| value(Self::node_of::<N>(set, lane)) as f32;
-        (0..Self::set_count::<N>()).map(|set| Lanes::from_fn(|j| lane(set, j))).collect()
     }
 
     /// The nodes that a line's power goes to, with shares that sum to 1 and have the line as their mean.
@@ -316,27 +279,6 @@ mod tests {
                     values.iter().enumerate().map(|(i, v)| v * nodes.weight_nm(i) * nodes.wavelength_nm(i)).sum();
                 assert!((power - 3.0).abs() < 1e-9 && (mean / 3.0 - nm).abs() < 1e-9, "{nm}: {power}, {mean}");
                 assert!(values.iter().all(|&value| value >= 0.0));
-            }
-        }
-        // With boxes, every set of eight nodes sees each of a few lines.
-        let nodes = Nodes::new(&Density::with_lines([546.074, 589.3]));
-        let sets = nodes.tabulate_sets::<8>(&Spectrum::Lines(vec![Line { nm: 546.074, power: 1.0 }]));
-        assert!(sets.iter().all(|set| set.max() > 0.0));
-    }
-
-    #[test]
-    fn sets_of_one_and_of_eight_are_the_same_nodes() {
-        let nodes = Nodes::new(&Density::visible());
-        let spectrum = Spectrum::Blackbody { kelvin: 3000.0 };
-        let plain = nodes.tabulate(&spectrum);
-        let ones = nodes.tabulate_sets::<1>(&spectrum);
-        let eights = nodes.tabulate_sets::<8>(&spectrum);
-        for (set, lanes) in eights.iter().enumerate() {
-            for (lane, &value) in lanes.0.iter().enumerate() {
-                let i = Nodes::node_of::<8>(set, lane);
-                assert_eq!(value, plain[i]);
-                assert_eq!(ones[i][0], plain[i]);
-                assert_eq!(nodes.set_wavelengths_nm::<8>(set)[lane], nodes.wavelength_nm(i));
             }
         }
     }

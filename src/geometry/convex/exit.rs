@@ -184,8 +184,8 @@ const CHECK_EVERY: u32 = 16;
 #[inline]
 fn within<const N: usize>(o: &Points<N>, d: &Points<N>, nearness: &[f32; N], offset: f32) -> bool {
     let mut farthest = 0.0f32;
-    for lane in 0..N {
-        let t = 1.0 / nearness[lane];
+    for (lane, near) in nearness.iter().enumerate() {
+        let t = 1.0 / near;
         let (x, y, z) = (o.x[lane] + d.x[lane] * t, o.y[lane] + d.y[lane] * t, o.z[lane] + d.z[lane] * t);
         let squared = x * x + y * y + z * z;
         // Infinite or no number at all where there is no exit yet.

@@ -4,7 +4,7 @@ use super::{Resolver, visible_nm};
 use crate::fresnel::FresnelModel;
 use crate::scene::describe::{self, AbsorptionSource, IndexSource, ReflectanceSource};
 use crate::scene::numbers::short;
-use crate::scene::{Inside, Interface, Medium, MediumId, SceneError, Surface, Text};
+use crate::scene::{Interface, Medium, MediumId, SceneError, Surface, Text};
 use crate::spectrum::{Ior, Outside, Spectrum, SpectrumError, Table, Upsampler, nearest};
 use std::fmt::Display;
 use std::ops::{Range, RangeInclusive};
@@ -81,7 +81,7 @@ impl Resolver<'_> {
                 let medium = self.medium(described, dielectric)?;
                 let medium = self.add_medium(medium, described)?;
                 let model = self.model(dielectric.get_ref().fresnel);
-                Ok(Surface::Dielectric(Interface { medium, model, inside: Inside::General }))
+                Ok(Surface::Dielectric(Interface { medium, model }))
             }
             (None, None, Some(diffuse)) => self.diffuse(described, diffuse.get_ref()),
             (None, None, None) => Err(text

@@ -76,7 +76,7 @@ impl Resolver<'_> {
         let vacuum = self.spectra.add(Spectrum::Constant(1.0));
         self.media.push(Medium { name: "vacuum".into(), n: vacuum, absorption: None, dispersive: false });
         file.outside.as_ref().map(|name| self.outside(name)).transpose()?;
-        let Objects { objects, shapes, emitters } = self.objects(&file.objects)?;
+        let Objects { mut objects, shapes, emitters } = self.objects(&file.objects)?;
         let environment = match &file.environment {
             Some(environment) => self.environment(environment.get_ref())?,
             None => Environment::Dark,
@@ -84,7 +84,7 @@ impl Resolver<'_> {
         let world = World::new(shapes).map_err(|error| self.text.whole(error))?;
         let camera = self.camera(&file.camera, [settings.width, settings.height], &world, &objects)?;
         let picture = self.picture(&file.picture)?;
-        self.trace_alone_where_possible(&world, &objects);
+        self.find_stones(&world, &mut objects);
         let lights = Lights::new(emitters, environment, objects.len());
         self.warn_of_darkness();
         self.warn_of_unused_materials();

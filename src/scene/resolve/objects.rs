@@ -4,7 +4,7 @@ use super::Resolver;
 use crate::geometry::{Shape, ShapeId, World};
 use crate::light::Emitter;
 use crate::scene::describe;
-use crate::scene::{Inside, Interface, Object, SceneError, Surface};
+use crate::scene::{Inside, Object, SceneError, Surface};
 use toml::Spanned;
 
 /// All objects of a scene, in the order of the file.
@@ -30,7 +30,7 @@ impl Resolver<'_> {
                 all.emitters.push(self.emitter(emission.get_ref(), &name, ShapeId(index as u32), &shape)?);
             }
             let material = object.material.as_ref().map_or("light", |material| material.get_ref()).to_owned();
-            all.objects.push(Object { name, material, surface });
+            all.objects.push(Object { name, material, surface, inside: Inside::General });
             all.shapes.push(shape);
         }
         Ok(all)
@@ -85,17 +85,14 @@ impl Resolver<'_> {
         }) as u32
     }
 
-    /// Marks the convex dielectrics that nothing else reaches into: their insides are traced without asking the scene.
-    pub fn trace_alone_where_possible(&mut self, world: &World, objects: &[Object]) {
-        let shapes = world.shapes();
-        let reached = |solid: usize| {
-            shapes.iter().enumerate().any(|(other, shape)| other != solid && shapes[solid].may_touch_inside(shape))
-        };
-        for (index, surface) in self.surfaces.iter_mut().enumerate() {
-            let Surface::Dielectric(Interface { inside, .. }) = surface else { continue };
-            let mut users = (0..shapes.len()).filter(|&shape| objects[shape].surface as usize == index);
-            let alone = users.all(|shape| matches!(shapes[shape], Shape::Convex(_)) && !reached(shape));
-            *inside = if alone { Inside::Alone } else { Inside::General };
+    /// Finds the convex dielectrics that nothing else reaches into: their insides are traced without asking the scene.
+    pub fn find_stones(&self, world: &World, objects: &mut [Object]) {
+        for (object, id) in objects.iter_mut().zip((0..).map(ShapeId)) {
+            let refracts = matches!(self.surfaces[object.surface as usize], Surface::Dielectric(_));
+            let faceted = matches!(world.shape(id), Some(Shape::Convex(_)));
+            if refracts && faceted && world.stands_alone(id) {
+                object.inside = Inside::Alone;
+            }
         }
     }
 }
