@@ -116,9 +116,9 @@ fn everywhere(solid: &Convex, rays: usize) {
                 glam::Quat::from_rotation_x(0.3),
                 origin * scale,
             );
-            attack(solid.transformed(&affine).unwrap(), rays / 6);
+            attack(solid.transformed(&affine).unwrap(), rays / 3);
         }
-        attack(solid.transformed(&glam::Affine3A::from_scale(Vec3::splat(scale))).unwrap(), rays / 6);
+        attack(solid.transformed(&glam::Affine3A::from_scale(Vec3::splat(scale))).unwrap(), rays / 3);
     }
 }
 
@@ -148,7 +148,7 @@ fn sphere() {
     for scale in SCALES {
         let sphere = Sphere::new(Vec3::new(0.3, 0.2, -0.6) * scale, 0.5 * scale).unwrap();
         let world = World::new(vec![Shape::from(sphere)]).unwrap();
-        for i in 0..300_000 {
+        for i in 0..1_000_000 {
             let out = random.direction();
             let origin = random.nudged(sphere.center() + out * sphere.radius());
             // Every third ray grazes.

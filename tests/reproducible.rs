@@ -46,7 +46,7 @@ fn parts_of_a_job_merge_into_the_same_film() {
 fn every_build_gives_these_bits() {
     let film = in_threads(2);
     let sums: Vec<u8> = film.pixels().iter().flat_map(|pixel| pixel.mean()).flat_map(f64::to_le_bytes).collect();
-    assert_eq!(format!("{:016x}", fnv1a_64(&sums)), "1eedb814a6173661");
+    assert_eq!(format!("{:016x}", fnv1a_64(&sums)), "448824151e37d1f3");
 }
 
 #[test]

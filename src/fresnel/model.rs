@@ -1,7 +1,7 @@
 //! A Fresnel model: what a new one must provide, and the closed set that a scene chooses from by name.
 
 use super::{Dielectric, FresnelModel, dielectric};
-use crate::spectrum::Lanes;
+use crate::spectrum::{Lanes, nearest};
 
 /// Reflectance as a function of the angle alone: made once per hit from the indices, then asked for cosines.
 pub trait Model<const N: usize>: Copy {
@@ -25,7 +25,7 @@ pub trait Model<const N: usize>: Copy {
 
 /// A model name that is not in the list.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("unknown Fresnel model `{name}`{}; known: {known}", nearest.map_or(String::new(), |nearest| format!(", did you mean `{nearest}`?")))]
+#[error("unknown Fresnel model `{name}` (known: {known}){}", nearest.map_or(String::new(), |nearest| format!("; did you mean `{nearest}`?")))]
 pub struct UnknownModel {
     pub name: String,
     /// The known name most like it, if any is.
@@ -36,10 +36,7 @@ pub struct UnknownModel {
 
 impl UnknownModel {
     pub(super) fn new(name: &str, names: &[&'static str]) -> Self {
-        let likeness = |known: &str| strsim::jaro_winkler(&name.to_lowercase(), known);
-        let nearest = names.iter().copied().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
-        let nearest = nearest.filter(|known| likeness(known) > 0.7);
-        Self { name: name.to_owned(), nearest, known: names.join(", ") }
+        Self { name: name.to_owned(), nearest: nearest(name, names.iter().copied()), known: names.join(", ") }
     }
 }
 
@@ -142,7 +139,7 @@ mod tests {
     fn a_slip_is_understood() {
         let error = "Schlik".parse::<FresnelModel>().unwrap_err();
         assert_eq!(error.nearest, Some("schlick"));
-        assert!(error.to_string().contains("did you mean `schlick`?") && error.to_string().contains("exact, "));
+        assert!(error.to_string().contains("did you mean `schlick`?") && error.to_string().contains("exact, schlick"));
         assert_eq!("q".parse::<FresnelModel>().unwrap_err().nearest, None::<&str>);
         let _: UnknownModel = error;
     }

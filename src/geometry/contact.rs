@@ -130,7 +130,8 @@ impl World {
     /// into it.
     pub fn stands_alone(&self, id: super::ShapeId) -> bool {
         self.shape(id).is_some_and(|solid| {
-            let others = self.shapes().iter().enumerate().filter(|(i, _)| *i != id.0 as usize);
+            let near = |other: &Shape| solid.bounds().meets(&other.bounds());
+            let others = self.shapes().iter().enumerate().filter(|(i, other)| *i != id.0 as usize && near(other));
             solid.is_solid() && others.into_iter().all(|(_, other)| !solid.may_touch_inside(other))
         })
     }

@@ -67,8 +67,8 @@ impl Disk {
     }
 
     /// The coordinates are those of the parallelogram around the ellipse.
-    pub(super) fn surface(&self, near: Vec3) -> (Vec3, Vec3, [f32; 2]) {
-        let (point, a, b) = self.flat.project(near);
-        (point, self.flat.normal, [0.5 + 0.5 * a, 0.5 + 0.5 * b].map(|x| x.clamp(0.0, 1.0)))
+    pub(super) fn surface(&self, near: Vec3) -> (Vec3, Vec3) {
+        let (point, _, _) = self.flat.project(near);
+        (point, self.flat.normal)
     }
 }

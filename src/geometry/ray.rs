@@ -73,8 +73,6 @@ pub struct Hit {
     pub point: Vec3,
     /// Geometric unit normal: out of a solid, to the front of a flat shape, whichever side the ray arrives on.
     pub normal: Vec3,
-    /// Surface coordinates, 0…1 (of a facet: scene units along two axes in its plane).
-    pub uv: [f32; 2],
 }
 
 /// A ray with what the shapes need to know about how exact its origin is.

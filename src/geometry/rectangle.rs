@@ -59,8 +59,8 @@ impl Rectangle {
         within.then_some(plane.crossing)
     }
 
-    pub(super) fn surface(&self, near: Vec3) -> (Vec3, Vec3, [f32; 2]) {
-        let (point, a, b) = self.flat.project(near);
-        (point, self.flat.normal, [0.5 + 0.5 * a, 0.5 + 0.5 * b].map(|x| x.clamp(0.0, 1.0)))
+    pub(super) fn surface(&self, near: Vec3) -> (Vec3, Vec3) {
+        let (point, _, _) = self.flat.project(near);
+        (point, self.flat.normal)
     }
 }

@@ -76,7 +76,7 @@ impl Shape {
     }
 
     /// Point, normal and coordinates where a ray arrives.
-    pub(super) fn surface(&self, near: Vec3, facet: u32) -> (Vec3, Vec3, [f32; 2]) {
+    pub(super) fn surface(&self, near: Vec3, facet: u32) -> (Vec3, Vec3) {
         match self {
             Shape::Sphere(s) => s.surface(near),
             Shape::Rectangle(s) => s.surface(near),

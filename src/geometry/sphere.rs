@@ -101,12 +101,9 @@ impl Sphere {
     }
 
     /// Point, normal and coordinates (longitude and colatitude over their ranges, poles on z) of a crossing.
-    pub(super) fn surface(&self, near: Vec3) -> (Vec3, Vec3, [f32; 2]) {
+    pub(super) fn surface(&self, near: Vec3) -> (Vec3, Vec3) {
         let normal = (near - self.center).try_normalize().unwrap_or(Vec3::Z);
-        let longitude = libm::atan2f(normal.y, normal.x) * (0.5 * std::f32::consts::FRAC_1_PI);
-        let u = if longitude < 0.0 { longitude + 1.0 } else { longitude };
-        let v = libm::acosf(normal.z.clamp(-1.0, 1.0)) * std::f32::consts::FRAC_1_PI;
-        (self.center + normal * self.radius, normal, [u, v])
+        (self.center + normal * self.radius, normal)
     }
 }
 

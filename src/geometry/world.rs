@@ -168,8 +168,8 @@ impl World {
     fn hit(&self, ray: &Ray, nearest: Nearest) -> Hit {
         let Crossing { t, side, facet, .. } = nearest.crossing;
         let near = ray.origin + ray.direction * t;
-        let (point, normal, uv) = self.shapes[nearest.shape as usize].surface(near, facet);
-        Hit { t, shape: ShapeId(nearest.shape), side, facet, point, normal, uv }
+        let (point, normal) = self.shapes[nearest.shape as usize].surface(near, facet);
+        Hit { t, shape: ShapeId(nearest.shape), side, facet, point, normal }
     }
 }
 

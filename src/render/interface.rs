@@ -23,10 +23,14 @@ impl Kernel<'_> {
     ) -> Outcome {
         let &Interface { medium, model } = interface;
         let entering = hit.side == Side::Outside;
-        let (from, to) = match entering {
-            true => (path.media.current(), medium),
-            false => (medium, path.media.without(medium)),
-        };
+        // Where solids overlap the one entered last fills the space: leaving another changes nothing.
+        let from = path.media.current();
+        let to = if entering { medium } else { path.media.without(medium) };
+        if from == to {
+            path.media.cross(medium, entering);
+            path.ray = Ray::leaving(hit, hit.side.opposite(), path.ray.direction);
+            return Outcome::GoesOn;
+        }
         let (n1, n2) = (self.n(from, path.offset), self.n(to, path.offset));
         let normal = if entering { hit.normal } else { -hit.normal };
         let cos_theta_i = (-path.ray.direction.dot(normal)).clamp(0.0, 1.0);
@@ -38,10 +42,7 @@ impl Kernel<'_> {
             path.ray = Ray::leaving(hit, hit.side, reflect(path.ray.direction, normal, cos_theta_i));
             return Outcome::GoesOn;
         }
-        match entering {
-            true => path.media.enter(medium),
-            false => path.media.leave(medium),
-        }
+        path.media.cross(medium, entering);
         let parts = N > 1 && (self.scene.medium(from).dispersive || self.scene.medium(to).dispersive);
         let into_stone = entering && (parts || N == 1) && self.scene.object(hit.shape).inside == Inside::Alone;
         if !parts && !into_stone {

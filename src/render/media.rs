@@ -21,8 +21,17 @@ impl MediaStack {
         if self.len == 0 { MediumId::OUTSIDE } else { self.entered[usize::from(self.len) - 1] }
     }
 
+    /// Goes through the boundary of a solid.
     #[inline]
-    pub fn enter(&mut self, medium: MediumId) {
+    pub fn cross(&mut self, medium: MediumId, entering: bool) {
+        match entering {
+            true => self.enter(medium),
+            false => self.leave(medium),
+        }
+    }
+
+    #[inline]
+    fn enter(&mut self, medium: MediumId) {
         if usize::from(self.len) < DEPTH {
             self.entered[usize::from(self.len)] = medium;
             self.len += 1;

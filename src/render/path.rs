@@ -81,13 +81,17 @@ impl Kernel<'_> {
     /// Spectral radiance (W m⁻² sr⁻¹ nm⁻¹) that arrives along a path's ray, a lane each.
     pub fn radiance<const N: usize>(&self, mut path: Path<N>, sampler: &mut Sampler) -> Lanes<N> {
         let mut radiance = Lanes::ZERO;
-        while path.depth < self.max_depth {
+        loop {
             let Some(hit) = self.scene.world.closest(&path.ray, f32::INFINITY) else {
                 radiance += self.environment(&path);
                 break;
             };
             path.throughput *= self.transmittance(path.media.current(), hit.t, path.offset);
             radiance += self.emission(&path, &hit);
+            // The last interaction is followed by a ray that only looks for light, the other half of its estimate.
+            if path.depth >= self.max_depth {
+                break;
+            }
             path.depth += 1;
             let outcome = match self.surface(&hit) {
                 Surface::Black => Outcome::Ended,
@@ -115,10 +119,11 @@ impl Kernel<'_> {
         self.scene.surfaces[self.scene.object(hit.shape).surface as usize]
     }
 
+    /// What has escaped is outside of all solids, whatever was entered where surfaces coincide.
     #[inline]
     fn environment<const N: usize>(&self, path: &Path<N>) -> Lanes<N> {
         let arriving = self.scene.lights.environment.radiance(&self.tables, path.ray.direction, path.offset);
-        path.throughput * arriving * self.transmittance(path.media.current(), f32::INFINITY, path.offset)
+        path.throughput * arriving * self.transmittance(MediumId::OUTSIDE, f32::INFINITY, path.offset)
     }
 
     /// Light that a hit sends back along the ray, weighted against finding it by sampling the light.

@@ -155,7 +155,8 @@ pub struct Gradient {
     pub nadir: Emission,
 }
 
-/// A spectrum with a strength: one of `luminance`, `radiance` and `scale`.
+/// A spectrum with a strength: one of `luminance`, `radiance` and `scale`. It is the radiance in the medium that the light
+/// stands in; seen from outside of glass of index n it is n² times less.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Emission {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Bands, Daylight, Formula, Line, Sigmoid, Table, planck};
+use super::{Bands, Daylight, Formula, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Line, Outside, Sigmoid, Table, planck};
 
 /// A function of vacuum wavelength. Its unit is what its use says: an index, a reflectance, m⁻¹, W m⁻² sr⁻¹ nm⁻¹, or
 /// relative power.
@@ -54,6 +54,15 @@ impl Spectrum {
             Self::Scaled { factor: inner, of } => Self::Scaled { factor: inner * factor, of },
             other => Self::Scaled { factor, of: Arc::new(other) },
         }
+    }
+
+    /// The absorption coefficient of an extinction coefficient: α = 4πk/λ, m⁻¹ and natural base; at every nanometre of the
+    /// visible and at every breakpoint, linear between.
+    pub fn absorption_from_k(&self) -> Self {
+        let visible = (LAMBDA_MIN_NM as u32..=LAMBDA_MAX_NM as u32).map(f64::from);
+        let alpha = |nm: f64| (nm, 4.0 * std::f64::consts::PI * self.at(nm) / (nm * 1e-9));
+        let points: Vec<_> = visible.chain(self.breakpoints_nm()).map(alpha).collect();
+        Self::Table(Table::from_points(&points, Outside::Hold))
     }
 
     /// The wavelengths that the data cover, nm; `None`: everywhere. For a sum, what all its parts cover.
@@ -116,7 +125,6 @@ pub(super) fn common_range(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Outside;
     use super::*;
 
     #[test]

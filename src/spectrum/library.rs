@@ -153,7 +153,11 @@ impl Library {
                 Format::Csv => csv_file::read_curve(text, name, quantity)?,
                 Format::Yaml if quantity == Quantity::Absorption => {
                     let (k, about) = rii_page::read_k(text, name)?;
-                    (Spectrum::Table(k.absorption_from_k()), about)
+                    let range_nm = k.range_nm();
+                    return Ok(Dataset {
+                        spectrum: Spectrum::Table(k).absorption_from_k(),
+                        about: About { range_nm, ..about },
+                    });
                 }
                 Format::Yaml => return Err(not_a(&format!("a {quantity} but an index of refraction"))),
             };

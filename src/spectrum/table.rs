@@ -135,12 +135,6 @@ impl Table {
         Some((*self.nm.first()?, *self.nm.last()?))
     }
 
-    /// The absorption coefficient of an extinction coefficient: α = 4πk/λ, m⁻¹, at the points of the table.
-    pub fn absorption_from_k(&self) -> Self {
-        let alpha = |(&nm, &k): (&f64, &f64)| 4.0 * std::f64::consts::PI * k / (nm * 1e-9);
-        Self { value: self.nm.iter().zip(&self.value).map(alpha).collect(), ..self.clone() }
-    }
-
     /// The same table with every value changed.
     pub fn map(&self, f: impl Fn(f64) -> f64) -> Self {
         Self { nm: self.nm.clone(), value: self.value.iter().map(|&value| f(value)).collect(), outside: self.outside }

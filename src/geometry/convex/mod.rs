@@ -208,10 +208,7 @@ impl Convex {
     }
 
     /// Coordinates: scene units along two axes in the facet, from the foot of the solid's centre.
-    pub(super) fn surface(&self, near: Vec3, facet: u32) -> (Vec3, Vec3, [f32; 2]) {
-        let (point, normal) = (self.project(near, facet), self.normal(facet));
-        let (u, v) = super::sampling::basis(normal);
-        let w = point - self.center;
-        (point, normal, [w.dot(u), w.dot(v)])
+    pub(super) fn surface(&self, near: Vec3, facet: u32) -> (Vec3, Vec3) {
+        (self.project(near, facet), self.normal(facet))
     }
 }

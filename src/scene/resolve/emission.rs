@@ -14,9 +14,6 @@ use toml::Spanned;
 /// cd/m². Single samples of a light with few wavelengths are brighter, and the film counts them up to 5e11.
 const BRIGHTEST: f64 = 1e11;
 
-/// What the environment counts for against lights of a known area when the strongest is looked for: it surrounds all.
-const ENVIRONMENT_AREA: f64 = 1e3;
-
 /// A light with the strength it was given.
 pub struct Resolved {
     pub id: SpectrumId,
@@ -25,11 +22,12 @@ pub struct Resolved {
 }
 
 impl Resolver<'_> {
-    pub fn environment(&mut self, environment: &describe::Environment) -> Result<Environment, SceneError> {
+    /// `area`: of the surface through which the environment lights the scene, scene units².
+    pub fn environment(&mut self, environment: &describe::Environment, area: f64) -> Result<Environment, SceneError> {
         Ok(match environment {
             describe::Environment::Constant(emission) => {
                 let light = self.emission(emission, "the environment")?;
-                self.white_candidates.push((light.luminance * ENVIRONMENT_AREA, light.id));
+                self.white_candidates.push((light.luminance * area, light.id));
                 Environment::Constant(light.id)
             }
             describe::Environment::Gradient(gradient) => {
@@ -38,7 +36,7 @@ impl Resolver<'_> {
                 let horizon = part(&gradient.horizon, "the environment's horizon")?;
                 let nadir = part(&gradient.nadir, "the environment's nadir")?;
                 for light in [&zenith, &horizon, &nadir] {
-                    self.white_candidates.push((light.luminance * ENVIRONMENT_AREA / 3.0, light.id));
+                    self.white_candidates.push((light.luminance * area / 3.0, light.id));
                 }
                 Environment::Gradient { nadir: nadir.id, horizon: horizon.id, zenith: zenith.id }
             }

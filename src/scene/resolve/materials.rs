@@ -5,7 +5,7 @@ use crate::fresnel::FresnelModel;
 use crate::scene::describe::{self, AbsorptionSource, IndexSource, ReflectanceSource};
 use crate::scene::numbers::short;
 use crate::scene::{Interface, Medium, MediumId, SceneError, Surface, Text};
-use crate::spectrum::{Ior, Outside, Spectrum, SpectrumError, Table, Upsampler, nearest};
+use crate::spectrum::{Ior, Spectrum, SpectrumError, Upsampler, nearest};
 use std::fmt::Display;
 use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
@@ -140,7 +140,7 @@ impl Resolver<'_> {
         let ior = self.ior(described, source)?;
         let absorption = match &dielectric.get_ref().absorption {
             Some(absorption) => self.absorption(described, absorption)?,
-            None => absorption_of_k(&ior.k),
+            None => visible_nm().any(|nm| ior.k.at(nm) > 0.0).then(|| ior.k.absorption_from_k()),
         };
         let absorption = match absorption {
             None => None,
@@ -251,12 +251,4 @@ fn is_constant(spectrum: &Spectrum) -> bool {
     let mut values = visible_nm().map(|nm| spectrum.at(nm).to_bits());
     let first = values.next();
     values.all(|value| Some(value) == first)
-}
-
-/// α = 4πk/λ in m⁻¹ from k, at every nanometre; `None` where k is zero.
-fn absorption_of_k(k: &Spectrum) -> Option<Spectrum> {
-    let alpha = |nm: f64| 4.0 * std::f64::consts::PI * k.at(nm) / (nm * 1e-9);
-    let points: Vec<(f64, f64)> = visible_nm().map(|nm| (nm, alpha(nm))).collect();
-    let absorbs = points.iter().any(|&(_, alpha)| alpha > 0.0);
-    absorbs.then(|| Spectrum::Table(Table::from_points(&points, Outside::Hold)))
 }

@@ -14,7 +14,7 @@ pub use settings::Overrides;
 use super::describe::{self, SceneFile};
 use super::{DataSet, Medium, Scene, SceneError, Surface, Text};
 use crate::fresnel::FresnelModel;
-use crate::geometry::World;
+use crate::geometry::{Bounds, World};
 use crate::light::{Environment, Lights};
 use crate::spectrum::{Arena, ColorMatching, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Library, Observer, Spectrum, SpectrumId};
 use glam::{DVec3, Vec3};
@@ -77,11 +77,11 @@ impl Resolver<'_> {
         self.media.push(Medium { name: "vacuum".into(), n: vacuum, absorption: None, dispersive: false });
         file.outside.as_ref().map(|name| self.outside(name)).transpose()?;
         let Objects { mut objects, shapes, emitters } = self.objects(&file.objects)?;
+        let world = World::new(shapes).map_err(|error| self.text.whole(error))?;
         let environment = match &file.environment {
-            Some(environment) => self.environment(environment.get_ref())?,
+            Some(environment) => self.environment(environment.get_ref(), surface(&world.bounds()))?,
             None => Environment::Dark,
         };
-        let world = World::new(shapes).map_err(|error| self.text.whole(error))?;
         let camera = self.camera(&file.camera, [settings.width, settings.height], &world, &objects)?;
         let picture = self.picture(&file.picture)?;
         self.find_stones(&world, &mut objects);
@@ -121,6 +121,12 @@ impl Resolver<'_> {
         }
         Err(self.text.error(&number.span(), format!("`{name}` is {value}: it must be finite and not negative")))
     }
+}
+
+/// The surface of the box around all shapes, through which the environment lights them.
+fn surface(bounds: &Bounds) -> f64 {
+    let [x, y, z] = if bounds.is_empty() { [1.0; 3] } else { bounds.size().to_array().map(f64::from) };
+    2.0 * (x * y + y * z + z * x)
 }
 
 /// Every nanometre at which light is computed.

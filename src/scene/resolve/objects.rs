@@ -57,7 +57,11 @@ impl Resolver<'_> {
         shape: &Shape,
     ) -> Result<Emitter, SceneError> {
         let light = self.emission(emission, name)?;
-        let two_sided = emission.two_sided && !shape.is_solid();
+        let two_sided = emission.two_sided;
+        if two_sided && shape.is_solid() {
+            let message = format!("{name} is a solid: it shines from its outside, `two_sided` is for flat shapes");
+            return Err(self.text.error(&emission.spectrum.span(), message));
+        }
         let power = light.luminance * f64::from(shape.area()) * if two_sided { 2.0 } else { 1.0 };
         self.white_candidates.push((power, light.id));
         Ok(Emitter { shape: id, radiance: light.id, two_sided, power })

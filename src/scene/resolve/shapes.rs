@@ -5,7 +5,7 @@ use crate::geometry::{Brilliant, Convex, Disk, GeometryError, Plane, Rectangle, 
 use crate::scene::SceneError;
 use crate::scene::describe;
 use crate::scene::numbers::{Finite, Length};
-use glam::{Affine3A, DVec3, EulerRot, Quat, Vec3};
+use glam::{Affine3A, DMat3, DVec3, Vec3};
 use toml::Spanned;
 
 impl Resolver<'_> {
@@ -63,14 +63,14 @@ fn edges(normal: [f64; 3]) -> Result<[Vec3; 2], GeometryError> {
 
 fn affine(transform: &describe::Transform) -> Affine3A {
     let scale = transform.scale.as_ref().map_or([1.0; 3], |scale| scale.get_ref().0.values());
-    let [x, y, z] = transform.rotate.unwrap_or_default().values().map(|degrees| degrees.to_radians() as f32);
-    // Extrinsic rotations about the fixed axes x, then y, then z.
-    let rotation = Quat::from_euler(EulerRot::ZYX, z, y, x);
-    Affine3A::from_scale_rotation_translation(
-        vector(scale),
-        rotation,
-        vector(transform.translate.unwrap_or_default().values()),
-    )
+    let [(sx, cx), (sy, cy), (sz, cz)] =
+        transform.rotate.unwrap_or_default().values().map(|degrees| libm::sincos(degrees.to_radians()));
+    // About the fixed axes x, then y, then z. By `libm`: glam's own rotations use the machine's sine.
+    let about_x = DMat3::from_cols(DVec3::X, DVec3::new(0.0, cx, sx), DVec3::new(0.0, -sx, cx));
+    let about_y = DMat3::from_cols(DVec3::new(cy, 0.0, -sy), DVec3::Y, DVec3::new(sy, 0.0, cy));
+    let about_z = DMat3::from_cols(DVec3::new(cz, sz, 0.0), DVec3::new(-sz, cz, 0.0), DVec3::Z);
+    let matrix = about_z * about_y * about_x * DMat3::from_diagonal(DVec3::from_array(scale));
+    Affine3A::from_mat3_translation(matrix.as_mat3(), vector(transform.translate.unwrap_or_default().values()))
 }
 
 fn half_space([x, y, z, offset]: [f64; 4]) -> Plane {

@@ -1,0 +1,303 @@
+//! Light through the whole renderer against answers worked out on paper: lamps of every shape, media, radiometry, a prism.
+//!
+//! Every comparison must hold by the spread of 16 independent renders, and must not hold for an answer one per cent off.
+
+mod common;
+
+use common::{replicates, z_against};
+use glam::DVec3;
+use spectrel::fresnel::exact::reflect;
+use spectrel::scene::Overrides;
+
+/// |z| beyond which a mean is wrong: 15 degrees of freedom, one failure in ten thousand.
+const CRITICAL: f64 = 5.2;
+
+/// Renders without noise to speak of may be off by rounding.
+const ROUNDING: f64 = 2e-5;
+
+fn agrees(renders: &[[f64; 3]], expected: f64) -> bool {
+    let luminances: Vec<[f64; 3]> = renders.iter().map(|xyz| [xyz[1]; 3]).collect();
+    let mean = luminances.iter().map(|y| y[0]).sum::<f64>() / luminances.len() as f64;
+    (mean - expected).abs() < ROUNDING * expected || z_against(&luminances, [expected; 3]) < CRITICAL
+}
+
+/// The luminance of a scene, cd/m², must be the expected one and no other.
+fn check(name: &str, scene: &str, samples: u32, lanes: u32, expected: f64) {
+    let overrides = Overrides { samples: Some(samples), lanes: Some(lanes), ..Overrides::default() };
+    let renders = replicates(scene, &overrides, 0, 16);
+    let mean = renders.iter().map(|xyz| xyz[1]).sum::<f64>() / 16.0;
+    println!("{name}: {mean:.6}, expected {expected:.6}");
+    assert!(agrees(&renders, expected), "{name}: {mean} against {expected}");
+    assert!(!agrees(&renders, 1.01 * expected), "{name}: one per cent more is not told apart");
+}
+
+const HEAD: &str = "meters_per_unit = 1\nrender = { width = 8, height = 8, filter = \"box\" }\n";
+
+/// What a lamp or an environment makes of a grey plane, seen from the side.
+fn plane(camera: &str, lamps: &str) -> String {
+    format!(
+        "{HEAD}
+        camera = {{ position = {camera}, look_at = [0, 0, 0], fov = 0.05 }}
+        materials.grey.diffuse.reflectance = 0.5
+        {lamps}
+        [[objects]]
+        material = \"grey\"
+        shape.rectangle = {{ size = [100, 100] }}"
+    )
+}
+
+fn lamp(shape: &str, more: &str) -> String {
+    format!("[[objects]]\nshape.{shape}\nemission = {{ spectrum = \"E\", luminance = 100{more} }}\n")
+}
+
+/// Form factor of a corner of a rectangle, x and y over its height (Howell, catalogue of configuration factors, B-3).
+fn corner(x: f64, y: f64) -> f64 {
+    let (sx, sy) = (1.0f64.hypot(x), 1.0f64.hypot(y));
+    (x / sx * (y / sx).atan() + y / sy * (x / sy).atan()) / std::f64::consts::TAU
+}
+
+#[test]
+fn round_and_solid_lamps_light_a_plane() {
+    let cases = [
+        ("sphere", lamp("sphere = { radius = 1, center = [0, 0, 3] }", ""), 1.0 / 9.0),
+        ("disk", lamp("disk = { radius = 2, center = [0, 0, 3], normal = [0, 0, -1] }", ""), 4.0 / 13.0),
+        ("box", lamp("box = { size = [2, 2, 2], center = [0, 0, 3] }", ""), 4.0 * corner(0.5, 0.5)),
+    ];
+    for (name, lamp, form_factor) in cases {
+        check(name, &plane("[6, 0, 6]", &lamp), 256, 8, 50.0 * form_factor);
+    }
+}
+
+#[test]
+fn rectangles_light_a_plane_near_and_far_and_from_the_side_they_shine() {
+    // On both sides of where sampling by solid angle takes over from sampling by area.
+    for (side, height) in [(4.0, 2.5), (1.0, 3.0), (2.6, 2.5), (2.4, 2.5)] {
+        let form_factor = 4.0 * corner(side / 2.0 / height, side / 2.0 / height);
+        let facing = |z: f64, more| {
+            let shape =
+                format!("rectangle = {{ size = [{side}, {side}], center = [0, 0, {height}], normal = [0, 0, {z}] }}");
+            plane("[6, 0, 6]", &lamp(&shape, more))
+        };
+        check("rectangle", &facing(-1.0, ""), 128, 8, 50.0 * form_factor);
+        check("two sides", &facing(1.0, ", two_sided = true"), 128, 8, 50.0 * form_factor);
+        let dark = replicates(&facing(1.0, ""), &Overrides { samples: Some(16), ..Overrides::default() }, 0, 2);
+        assert_eq!(dark, [[0.0; 3]; 2], "the back of a lamp");
+    }
+}
+
+#[test]
+fn a_weak_lamp_beside_a_strong_hidden_one_keeps_its_light() {
+    for strength in [1e3, 1e5] {
+        let hidden = lamp("sphere = { radius = 1, center = [0, 0, -30] }", "")
+            .replace("100 }", &format!("{} }}", 100.0 * strength));
+        let weak = lamp("sphere = { radius = 1, center = [0, 0, 3] }", "");
+        check("weak first", &plane("[6, 0, 6]", &format!("{weak}{hidden}")), 512, 8, 50.0 / 9.0);
+        check("weak last", &plane("[6, 0, 6]", &format!("{hidden}{weak}")), 512, 8, 50.0 / 9.0);
+    }
+}
+
+#[test]
+fn a_bounded_path_ends_after_its_last_light() {
+    let bounded = |text: String| text.replace("filter = \"box\"", "filter = \"box\", max_depth = 1");
+    let sphere = plane("[6, 0, 6]", &lamp("sphere = { radius = 1, center = [0, 0, 3] }", ""));
+    check("lamp at depth 1", &bounded(sphere), 256, 8, 50.0 / 9.0);
+    let sky = plane("[6, 0, 6]", "environment.constant = { spectrum = \"E\", luminance = 100 }");
+    check("environment at depth 1", &bounded(sky), 16, 8, 50.0);
+}
+
+/// Six lamps that leave no gap around an object: the same light as a constant environment, but found by sampling too.
+fn room(object: &str) -> String {
+    let walls = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| [axis, -axis]).map(|normal| {
+        let (center, normal) = ((-4.0 * normal).to_array(), normal.to_array());
+        lamp(&format!("rectangle = {{ size = [8, 8], center = {center:?}, normal = {normal:?} }}"), "")
+    });
+    format!(
+        "{HEAD}camera = {{ position = [0, -3.9, 1], look_at = [0, 0, 0], fov = 6 }}\n{object}\n{}",
+        walls.collect::<String>()
+    )
+}
+
+#[test]
+fn a_room_of_lamps_is_a_furnace() {
+    let ball = |material: String| {
+        format!("materials.m = {material}\n[[objects]]\nmaterial = \"m\"\nshape.sphere = {{ radius = 1 }}\n")
+    };
+    check("grey ball", &room(&ball("{ diffuse = { reflectance = 0.5 } }".into())), 64, 8, 50.0);
+    for alpha in [0.02, 0.1, 0.4, 1.0] {
+        let metal = ball(format!("{{ conductor = {{ ior = {{ n = 0.2, k = 3 }}, roughness = {alpha} }} }}"));
+        let sky = format!(
+            "{HEAD}camera = {{ position = [0, -3.9, 1], look_at = [0, 0, 0], fov = 6 }}
+            environment.constant = {{ spectrum = \"E\", luminance = 100 }}\n{metal}"
+        );
+        let overrides = Overrides { samples: Some(1024), ..Overrides::default() };
+        let renders = replicates(&sky, &overrides, 100, 16);
+        let expected = renders.iter().map(|xyz| xyz[1]).sum::<f64>() / 16.0;
+        check(&format!("metal of roughness {alpha}"), &room(&metal), 256, 8, expected);
+    }
+}
+
+/// Camera positions over a level surface and the cosines of the angles under which they see it.
+const VIEWS: [(&str, f64); 2] = [("[0.01, 0, 6]", 1.0), ("[6, 0, 6.5]", std::f64::consts::FRAC_1_SQRT_2)];
+
+fn under(camera: &str, more: &str) -> String {
+    format!("{HEAD}camera = {{ position = {camera}, look_at = [0, 0, 0.5], fov = 0.05 }}\n{more}")
+}
+
+const SKY: &str = "environment.constant = { spectrum = \"E\", luminance = 100 }\n";
+
+/// Cosine after refraction from vacuum.
+fn refracted(cos: f64, n: f64) -> f64 {
+    (1.0 - (1.0 - cos * cos) / (n * n)).sqrt()
+}
+
+#[test]
+fn gold_looks_as_its_medium_makes_it() {
+    const GOLD: &str =
+        "materials.g.conductor = { ior = { n = 0.2, k = 3 } }\nmaterials.w.dielectric = { ior = 1.33 }\n";
+    const SHEET: &str =
+        "[[objects]]\nmaterial = \"g\"\nshape.rectangle = { size = [190, 190], center = [0, 0, 0.1] }\n";
+    const WATER: &str = "[[objects]]\nmaterial = \"w\"\nshape.box = { size = [200, 200, 1] }\n";
+    for (camera, cos) in VIEWS {
+        let surface = reflect(1.0, 1.33, 0.0, cos).r;
+        let gold = reflect(1.33, 0.2, 3.0, refracted(cos, 1.33)).r;
+        let expected = surface + (1.0 - surface) * (1.0 - surface) * gold / (1.0 - surface * gold);
+        check("under water", &under(camera, &format!("{SKY}{GOLD}{WATER}{SHEET}")), 256, 8, 100.0 * expected);
+        let all_wet = format!("outside = \"w\"\n{}", under(camera, &format!("{SKY}{GOLD}{SHEET}")));
+        check("all in water", &all_wet, 16, 8, 100.0 * reflect(1.33, 0.2, 3.0, cos).r);
+    }
+}
+
+#[test]
+fn a_slab_that_absorbs_shows_the_series_of_its_reflections() {
+    for (camera, cos) in VIEWS {
+        let r = reflect(1.0, 1.5, 0.0, cos).r;
+        let tau = (-0.7 / refracted(cos, 1.5)).exp();
+        let expected = r + (1.0 - r) * (1.0 - r) * tau * (1.0 + r * tau) / (1.0 - r * r * tau * tau);
+        let slab = "materials.w.dielectric = { ior = 1.5, absorption = 0.7 }
+            [[objects]]\nmaterial = \"w\"\nshape.box = { size = [200, 200, 1] }\n";
+        for lanes in [1, 8] {
+            check("slab", &under(camera, &format!("{SKY}{slab}")), 1024, lanes, 100.0 * expected);
+        }
+    }
+}
+
+#[test]
+fn a_lamp_in_glass_is_dimmer_by_the_square_of_the_index() {
+    let glass =
+        "materials.w.dielectric = { ior = 1.5 }\n[[objects]]\nmaterial = \"w\"\nshape.box = { size = [20, 20, 4] }\n";
+    let text = under("[0.01, 0, 6]", &format!("{glass}{}", lamp("sphere = { radius = 0.5 }", "")));
+    for lanes in [1, 8] {
+        check("lamp in glass", &text, 256, lanes, 100.0 * 0.96 / 2.25);
+    }
+}
+
+#[test]
+fn surroundings_that_absorb_dim_what_they_fill() {
+    // A lamp so small that its light is E = L π r²/d², through smoke on both ways. Its visible points lie 2/3 of the radius
+    // before its centre in the mean.
+    let lamp = lamp("sphere = { radius = 0.01, center = [0, 0, 3] }", "").replace("= 100 ", "= 1000000 ");
+    let smoke = "materials.smoke.dielectric = { ior = 1, absorption = 0.2 }\n";
+    let text = format!("outside = \"smoke\"\n{}", plane("[6, 0, 6]", &format!("{smoke}{lamp}")));
+    let expected = 0.5e6 * 1e-4 / 9.0 * (-0.2 * (72f64.sqrt() + 3.0 - 0.02 / 3.0)).exp();
+    check("smoke", &text, 256, 8, expected);
+}
+
+#[test]
+fn overlapping_solids_refract_once_between_two_media() {
+    let text = under(
+        "[6, 0, 6.5]",
+        "environment.gradient.zenith = { spectrum = \"E\", luminance = 0 }
+        environment.gradient.horizon = { spectrum = \"E\", luminance = 0 }
+        environment.gradient.nadir = { spectrum = \"E\", luminance = 100 }
+        materials.a.dielectric = { ior = 1.5 }
+        materials.b.dielectric = { ior = 1.0 }
+        [[objects]]\nmaterial = \"a\"\nshape.box = { size = [2000, 2000, 1] }
+        [[objects]]\nmaterial = \"b\"\nshape.box = { size = [2000, 2000, 1], center = [0, 0, -0.9] }",
+    );
+    let cos = std::f64::consts::FRAC_1_SQRT_2;
+    let r = reflect(1.0, 1.5, 0.0, cos).r;
+    check("overlap", &text, 256, 8, 100.0 * cos * (1.0 - r) / (1.0 + r));
+}
+
+#[test]
+fn light_of_known_strength_has_it() {
+    let sky = |light: &str| under("[0.01, 0, 6]", &format!("environment.constant = {light}\n"));
+    // Planck's law through the observer, integrated apart from this program: 683 ∫ L ȳ dλ at platinum's melting point.
+    check("platinum point", &sky("{ spectrum = { blackbody = 2041.4 } }"), 256, 8, 596_459.6);
+    // 47 W/m²sr over 470 nm; the observer's ȳ integrates to 106.8569 nm.
+    check("radiance", &sky("{ spectrum = \"E\", radiance = 47 }"), 256, 8, 683.0 * 0.1 * 106.8569);
+}
+
+/// Planes n·x ≤ d of a prism along y whose apex is up, and the light that a ray brings out of it by f64 ray tracing.
+mod prism {
+    use super::{DVec3, reflect};
+
+    pub fn planes() -> [(DVec3, f64); 3] {
+        let (sin, cos) = 30f64.to_radians().sin_cos();
+        [(DVec3::new(cos, 0.0, sin), 1.0), (DVec3::new(-cos, 0.0, sin), 1.0), (DVec3::NEG_Z, 2.0)]
+    }
+
+    /// Radiance of the sky: linear in the sine of the elevation, from 10 straight down to 90 straight up.
+    fn sky(direction: DVec3) -> f64 {
+        50.0 + 40.0 * direction.z
+    }
+
+    /// A ray inside at a point, until it carries next to nothing.
+    fn inside(point: DVec3, direction: DVec3, n: f64, weight: f64) -> f64 {
+        if weight < 1e-9 {
+            return 0.0;
+        }
+        let exit = |(normal, offset): (DVec3, f64)| {
+            let rate = normal.dot(direction);
+            (if rate > 1e-12 { (offset - normal.dot(point)).max(0.0) / rate } else { f64::INFINITY }, normal)
+        };
+        let (t, normal) = planes().into_iter().map(exit).min_by(|a, b| a.0.total_cmp(&b.0)).expect("three planes");
+        let (at, cos) = (point + direction * t, normal.dot(direction));
+        let r = reflect(n, 1.0, 0.0, cos).r;
+        let back = inside(at, direction - 2.0 * cos * normal, n, weight * r);
+        if r == 1.0 {
+            return back;
+        }
+        let along = (direction - cos * normal) * n;
+        let out = along + normal * (1.0 - along.length_squared()).sqrt();
+        back + weight * (1.0 - r) * sky(out)
+    }
+
+    /// What a ray from outside brings that meets the left face.
+    pub fn seen(origin: DVec3, direction: DVec3, n: f64) -> f64 {
+        let (normal, offset) = planes()[1];
+        let t = (offset - normal.dot(origin)) / normal.dot(direction);
+        let cos = -normal.dot(direction);
+        let r = reflect(1.0, n, 0.0, cos).r;
+        let along = (direction + cos * normal) / n;
+        let into = along - normal * (1.0 - along.length_squared()).sqrt();
+        r * sky(direction + 2.0 * cos * normal) + inside(origin + direction * t, into, n, 1.0 - r)
+    }
+}
+
+#[test]
+fn a_prism_shows_the_sky_where_refraction_says() {
+    let planes: Vec<[f64; 4]> = prism::planes()
+        .into_iter()
+        .chain([(DVec3::Y, 500.0), (DVec3::NEG_Y, 500.0)])
+        .map(|(normal, offset)| [normal.x, normal.y, normal.z, offset])
+        .collect();
+    for (n, height) in [(1.5, 1.5), (1.78, 0.5), (2.4, -2.0)] {
+        let origin = DVec3::new(-20.0, 0.0, height);
+        let target = DVec3::new(-1.0, 0.0, 0.2);
+        let text = format!(
+            "{HEAD}camera = {{ position = {:?}, look_at = {:?}, fov = 0.01 }}
+            environment.gradient.zenith = {{ spectrum = \"E\", luminance = 90 }}
+            environment.gradient.horizon = {{ spectrum = \"E\", luminance = 50 }}
+            environment.gradient.nadir = {{ spectrum = \"E\", luminance = 10 }}
+            materials.glass.dielectric = {{ ior = {n} }}
+            [[objects]]\nmaterial = \"glass\"\nshape.convex.planes = {planes:?}",
+            origin.to_array(),
+            target.to_array()
+        );
+        let expected = prism::seen(origin, (target - origin).normalize(), n);
+        for lanes in [1, 8] {
+            check(&format!("prism of index {n}"), &text, 1024, lanes, expected);
+        }
+    }
+}
