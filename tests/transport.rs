@@ -301,3 +301,20 @@ fn a_prism_shows_the_sky_where_refraction_says() {
         }
     }
 }
+
+#[test]
+fn a_lens_spreads_a_lamp_but_loses_none_of_its_light() {
+    // A lamp far out of focus, wholly in the picture with its blur: the mean over the picture stays what a pinhole sees.
+    let text = |lens: &str| {
+        format!(
+            "meters_per_unit = 0.001\nrender = {{ width = 32, height = 32, filter = \"box\" }}
+            camera = {{ position = [0, -100, 0], look_at = [0, 0, 0], focal_length_mm = 50, {lens} }}
+            [[objects]]\nshape.sphere = {{ radius = 6 }}\nemission = {{ spectrum = \"E\", luminance = 100 }}"
+        )
+    };
+    let overrides = Overrides { samples: Some(1024), ..Overrides::default() };
+    let pinhole = replicates(&text(""), &overrides, 0, 16).iter().map(|xyz| xyz[1]).sum::<f64>() / 16.0;
+    // Distances from the opening to the lamp differ by so little that the solid angle changes by (r/d)² ≈ 2e-4 at most.
+    check("lens in focus", &text("f_number = 16"), 1024, 8, pinhole);
+    check("lens out of focus", &text("f_number = 16, focus_distance = 30, blades = 6"), 1024, 8, pinhole);
+}

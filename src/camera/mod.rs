@@ -1,11 +1,13 @@
-//! Where paths begin: a pinhole camera and the filter that spreads samples over a pixel's neighbourhood.
+//! Where paths begin: a camera, and the filter that spreads samples over a pixel's neighbourhood.
 
+mod aperture;
 mod filter;
 
+pub use aperture::Aperture;
 pub use filter::Filter;
 
-use crate::geometry::{Departure, Ray};
-use glam::Vec3;
+use crate::geometry::Ray;
+use glam::{DVec3, Vec3};
 use thiserror::Error;
 
 /// What is wrong with a camera.
@@ -17,8 +19,10 @@ pub enum CameraError {
     UpAlongView,
     #[error("a field of view of {0}° is not between 0° and 180° (both excluded)")]
     FieldOfView(f64),
-    #[error("{name} is {value}, but must be a positive finite length in mm")]
+    #[error("{name} is {value}: it must be a positive finite length")]
     Length { name: &'static str, value: f64 },
+    #[error("an aperture of {0} blades: it has 3 to 32, or 0 to be round")]
+    Blades(u32),
 }
 
 /// How wide the camera sees.
@@ -28,10 +32,12 @@ pub enum Lens {
     FieldOfView(f64),
     /// Focal length and sensor width in mm; the sensor's height follows from the picture's shape.
     FocalLength { focal_length_mm: f64, sensor_width_mm: f64 },
+    /// Parallel rays (orthographic): the picture is this wide in scene units at every distance.
+    Parallel { width: f64 },
 }
 
 impl Lens {
-    /// Half the picture's width at distance 1.
+    /// Half the picture's width at distance 1, for parallel rays at every distance.
     fn half_width(self) -> Result<f64, CameraError> {
         match self {
             Self::FieldOfView(degrees) => {
@@ -48,17 +54,25 @@ impl Lens {
                 }
                 Ok(sensor_width_mm / (2.0 * focal_length_mm))
             }
+            Self::Parallel { width } if width > 0.0 && width.is_finite() => Ok(width / 2.0),
+            Self::Parallel { width } => Err(CameraError::Length { name: "orthographic_width", value: width }),
         }
     }
 }
 
-/// A pinhole camera: everything in focus, rays from one point.
+/// A camera: rays from one point, from the opening of a lens, or side by side.
 #[derive(Clone, Debug)]
 pub struct Camera {
     position: Vec3,
+    forward: Vec3,
+    right: Vec3,
+    down: Vec3,
+    /// From the position to the picture's upper left corner at distance 1; for parallel rays across the view only.
     corner: Vec3,
     step_x: Vec3,
     step_y: Vec3,
+    parallel: bool,
+    aperture: Option<Aperture>,
 }
 
 impl Camera {
@@ -68,6 +82,7 @@ impl Camera {
         look_at: Vec3,
         up: Vec3,
         lens: Lens,
+        aperture: Option<Aperture>,
         [width, height]: [u32; 2],
     ) -> Result<Self, CameraError> {
         let half_width = lens.half_width()?;
@@ -81,11 +96,18 @@ impl Camera {
         let down = forward.cross(right);
         let pixel = 2.0 * half_width / f64::from(width);
         let half_height = pixel * f64::from(height) / 2.0;
+        let parallel = matches!(lens, Lens::Parallel { .. });
+        let ahead = if parallel { DVec3::ZERO } else { forward };
         Ok(Self {
             position,
-            corner: (forward - right * half_width - down * half_height).as_vec3(),
+            forward: forward.as_vec3(),
+            right: right.as_vec3(),
+            down: down.as_vec3(),
+            corner: (ahead - right * half_width - down * half_height).as_vec3(),
             step_x: (right * pixel).as_vec3(),
             step_y: (down * pixel).as_vec3(),
+            parallel,
+            aperture,
         })
     }
 
@@ -93,11 +115,18 @@ impl Camera {
         self.position
     }
 
-    /// The ray through a point of the picture, in pixels from its upper left corner.
+    /// A ray through a point of the picture, in pixels from its upper left corner. `lens` gives two uniform numbers for
+    /// the point of the opening; a pinhole does not ask for them.
     #[inline]
-    pub fn ray(&self, x: f32, y: f32) -> Ray {
-        let direction = (self.corner + self.step_x * x + self.step_y * y).normalize();
-        Ray { origin: self.position, direction, departs: Departure::Free }
+    pub fn ray(&self, x: f32, y: f32, lens: impl FnOnce() -> [f32; 2]) -> Ray {
+        let view = self.corner + self.step_x * x + self.step_y * y;
+        if self.parallel {
+            return Ray::free(self.position + view, self.forward);
+        }
+        let Some(aperture) = &self.aperture else { return Ray::free(self.position, view.normalize()) };
+        let [across, along] = aperture.sample(lens());
+        let opening = self.right * across + self.down * along;
+        Ray::free(self.position + opening, (view * aperture.focus_distance - opening).normalize())
     }
 }
 
@@ -106,18 +135,18 @@ mod tests {
     use super::*;
 
     fn camera(lens: Lens) -> Result<Camera, CameraError> {
-        Camera::new(Vec3::new(0.0, -10.0, 0.0), Vec3::ZERO, Vec3::Z, lens, [300, 200])
+        Camera::new(Vec3::new(0.0, -10.0, 0.0), Vec3::ZERO, Vec3::Z, lens, None, [300, 200])
     }
 
     #[test]
     fn centre_looks_forward_and_edges_span_the_field_of_view() {
         let camera = camera(Lens::FieldOfView(60.0)).unwrap();
-        assert!((camera.ray(150.0, 100.0).direction - Vec3::Y).length() < 1e-6);
-        let left = camera.ray(0.0, 100.0).direction;
-        let right = camera.ray(300.0, 100.0).direction;
+        assert!((camera.ray(150.0, 100.0, || unreachable!("a pinhole")).direction - Vec3::Y).length() < 1e-6);
+        let left = camera.ray(0.0, 100.0, || unreachable!("a pinhole")).direction;
+        let right = camera.ray(300.0, 100.0, || unreachable!("a pinhole")).direction;
         assert!(left.x < 0.0 && right.x > 0.0, "x grows to the right");
         assert!((left.angle_between(right).to_degrees() - 60.0).abs() < 1e-4);
-        assert!(camera.ray(150.0, 0.0).direction.z > 0.0, "the first row is the top");
+        assert!(camera.ray(150.0, 0.0, || unreachable!("a pinhole")).direction.z > 0.0, "the first row is the top");
     }
 
     #[test]
@@ -125,7 +154,12 @@ mod tests {
         let by_focal = camera(Lens::FocalLength { focal_length_mm: 50.0, sensor_width_mm: 36.0 }).unwrap();
         let fov = 2.0 * (18.0f64 / 50.0).atan().to_degrees();
         let by_fov = camera(Lens::FieldOfView(fov)).unwrap();
-        assert!((by_focal.ray(3.0, 7.0).direction - by_fov.ray(3.0, 7.0).direction).length() < 1e-6);
+        assert!(
+            (by_focal.ray(3.0, 7.0, || unreachable!("a pinhole")).direction
+                - by_fov.ray(3.0, 7.0, || unreachable!("a pinhole")).direction)
+                .length()
+                < 1e-6
+        );
     }
 
     #[test]
@@ -133,9 +167,38 @@ mod tests {
         assert_eq!(camera(Lens::FieldOfView(0.0)).unwrap_err(), CameraError::FieldOfView(0.0));
         assert!(camera(Lens::FieldOfView(f64::NAN)).is_err());
         assert!(camera(Lens::FocalLength { focal_length_mm: -1.0, sensor_width_mm: 36.0 }).is_err());
-        let same = Camera::new(Vec3::ONE, Vec3::ONE, Vec3::Z, Lens::FieldOfView(40.0), [2, 2]);
+        let same = Camera::new(Vec3::ONE, Vec3::ONE, Vec3::Z, Lens::FieldOfView(40.0), None, [2, 2]);
         assert_eq!(same.unwrap_err(), CameraError::NoDirection);
-        let along = Camera::new(Vec3::ZERO, Vec3::Z, Vec3::Z, Lens::FieldOfView(40.0), [2, 2]);
+        let along = Camera::new(Vec3::ZERO, Vec3::Z, Vec3::Z, Lens::FieldOfView(40.0), None, [2, 2]);
         assert_eq!(along.unwrap_err(), CameraError::UpAlongView);
+    }
+
+    #[test]
+    fn rays_through_an_opening_meet_in_the_plane_of_focus() {
+        let aperture = Aperture::new(0.5, 0, 8.0).unwrap();
+        let camera = |aperture| {
+            let lens = Lens::FieldOfView(60.0);
+            Camera::new(Vec3::new(0.0, -10.0, 0.0), Vec3::ZERO, Vec3::Z, lens, aperture, [300, 200]).unwrap()
+        };
+        let at = |ray: Ray, y: f32| ray.origin + ray.direction * ((y - ray.origin.y) / ray.direction.y);
+        let sharp = at(camera(None).ray(20.0, 30.0, || [0.0; 2]), -2.0);
+        let mut widest: f32 = 0.0;
+        for i in 0..64 {
+            let ray = camera(Some(aperture)).ray(20.0, 30.0, || [i as f32 / 64.0, 0.999]);
+            assert!((at(ray, -2.0) - sharp).length() < 1e-4, "8 units ahead everything is sharp");
+            // Twice as far the blur is as wide as the opening.
+            let far = at(camera(None).ray(20.0, 30.0, || [0.0; 2]), 6.0);
+            widest = widest.max((at(ray, 6.0) - far).length());
+        }
+        assert!((widest - 0.5).abs() < 1e-3, "{widest}");
+    }
+
+    #[test]
+    fn parallel_rays_keep_their_distance() {
+        let camera = camera(Lens::Parallel { width: 30.0 }).unwrap();
+        let [left, right] = [0.0, 300.0].map(|x| camera.ray(x, 100.0, || unreachable!("no opening")));
+        assert_eq!((left.direction, right.direction), (Vec3::Y, Vec3::Y));
+        assert!((left.origin - Vec3::new(-15.0, -10.0, 0.0)).length() < 1e-5, "{}", left.origin);
+        assert!((right.origin - Vec3::new(15.0, -10.0, 0.0)).length() < 1e-5);
     }
 }

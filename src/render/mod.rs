@@ -60,7 +60,8 @@ impl<'a> Kernel<'a> {
     fn sample<const N: usize>(&self, pixel: [u32; 2], mut sampler: Sampler) -> [f32; 3] {
         let offset = sampler.set(self.tables.sets()) * N as u32;
         let [dx, dy] = self.scene.filter.sample(sampler.uniform_2d());
-        let ray = self.scene.camera.ray(pixel[0] as f32 + 0.5 + dx, pixel[1] as f32 + 0.5 + dy);
+        let [x, y] = [pixel[0] as f32 + 0.5 + dx, pixel[1] as f32 + 0.5 + dy];
+        let ray = self.scene.camera.ray(x, y, || sampler.uniform_2d());
         let radiance = self.radiance(Path::<N>::new(ray, offset), &mut sampler);
         self.observer.map(|weights| (radiance * self.tables.get(weights, offset)).sum())
     }

@@ -89,6 +89,14 @@ pub struct Camera {
     pub focal_length_mm: Option<Number>,
     /// Width of the sensor behind `focal_length_mm`; 36 unless given.
     pub sensor_width_mm: Option<Number>,
+    /// Parallel rays instead: the width of the picture in scene units.
+    pub orthographic_width: Option<Number>,
+    /// Opens the aperture to `focal_length_mm` over this; everything is in focus unless given. Needs `meters_per_unit`.
+    pub f_number: Option<Number>,
+    /// From the camera to what is sharp, scene units along the view; the distance of `look_at` unless given.
+    pub focus_distance: Option<Number>,
+    /// Corners of the aperture; 0, round, unless given.
+    pub blades: Option<Spanned<u32>>,
 }
 
 fn up() -> Numbers<3> {

@@ -187,6 +187,9 @@ fn absorption_needs_a_scale() {
 #[test]
 fn cameras_must_see() {
     let with = |more: &str| format!("{CAMERA}{more}\n");
+    let opened = |more: &str| {
+        format!("meters_per_unit = 1\n{}", CAMERA.replace("fov = 40", &format!("focal_length_mm = 50\n{more}")))
+    };
     all_refused_at_mark(&[
         (CAMERA.replace("40", "§0"), &["field of view of 0°"]),
         (CAMERA.replace("40", "§-40"), &["field of view of -40°"]),
@@ -196,6 +199,16 @@ fn cameras_must_see() {
         (CAMERA.replace("fov = 40", "focal_length_mm = 50\nsensor_width_mm = §-1"), &["sensor_width_mm is -1"]),
         (with("focal_length_mm = §50"), &["`fov` and `focal_length_mm`"]),
         (with("sensor_width_mm = §36"), &["goes with `focal_length_mm`"]),
+        (with("orthographic_width = 3").replace("fov = 40", "fov = §40"), &["both say how wide"]),
+        (CAMERA.replace("fov = 40", "orthographic_width = §0"), &["orthographic_width is 0"]),
+        (with("f_number = §2"), &["goes with `focal_length_mm`"]),
+        (with("blades = §5"), &["goes with `f_number`"]),
+        (with("focus_distance = §5"), &["goes with `f_number`"]),
+        (CAMERA.replace("fov = 40", "focal_length_mm = 50\nf_number = §2"), &["meters_per_unit"]),
+        (opened("f_number = §0"), &["`f_number` is 0"]),
+        (opened("f_number = §-2"), &["`f_number` is -2"]),
+        (opened("f_number = 2\nblades = §2"), &["3 to 32"]),
+        (opened("f_number = 2\nfocus_distance = §-1"), &["focus_distance is -1"]),
         (with("up = §[0, 1, 0]"), &["`up` is parallel"]),
         (with("up = §[0, 0, 0]"), &["`up` is parallel"]),
         (CAMERA.replace("[0, -10, 0]", "[0, 0, 10]").replace("[camera]", "§[camera]"), &["`up` is parallel"]),

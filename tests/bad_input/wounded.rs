@@ -95,6 +95,9 @@ look_at = [0, 0, 0]
 up = [0, 0, 1]
 focal_length_mm = 50
 sensor_width_mm = 24
+f_number = 2.8
+focus_distance = 9
+blades = 7
 [picture]
 exposure = "auto"
 white_balance = "scene"
