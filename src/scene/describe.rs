@@ -61,7 +61,9 @@ pub struct Render {
 #[derive(Clone, Copy, Debug, Default, Deserialize, Serialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
 pub enum FilterName {
+    /// Evenly over the pixel.
     Box,
+    /// By a Blackman–Harris window of 1.5 pixels around it; unless given.
     #[default]
     BlackmanHarris,
 }
@@ -70,15 +72,19 @@ pub enum FilterName {
 #[derive(Clone, Copy, Debug, Default, Deserialize, Serialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
 pub enum SamplerName {
+    /// Less noise for the same time; unless given.
     #[default]
     Sobol,
+    /// Samples that know nothing of each other.
     Independent,
 }
 
-/// A pinhole camera. How wide it sees is said either by `fov` or by `focal_length_mm`.
+/// Where the picture is seen from. How wide the camera sees is said by one of `fov`, `focal_length_mm` and
+/// `orthographic_width`.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Camera {
+    /// Where the camera stands.
     pub position: Vector,
     /// The point in the middle of the picture.
     pub look_at: Vector,
@@ -86,6 +92,7 @@ pub struct Camera {
     pub up: Option<Vector>,
     /// Horizontal field of view in degrees.
     pub fov: Option<Number>,
+    /// Of a lens in front of a sensor of `sensor_width_mm`.
     pub focal_length_mm: Option<Number>,
     /// Width of the sensor behind `focal_length_mm`; 36 unless given.
     pub sensor_width_mm: Option<Number>,
@@ -121,19 +128,24 @@ pub struct Picture {
 #[derive(Clone, Copy, Debug, Default, Deserialize, Serialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
 pub enum GamutName {
+    /// Each channel for itself, which shifts hues; unless given.
     #[default]
     Clip,
+    /// Towards grey of equal luminance.
     PreserveChroma,
 }
 
 /// Whose eye the film sees with.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Serialize, PartialEq, Eq)]
 pub enum ObserverName {
+    /// The standard 2° observer; unless given.
     #[default]
     #[serde(rename = "cie-1931-2")]
     Cie1931,
+    /// The 10° observer, for large fields.
     #[serde(rename = "cie-1964-10")]
     Cie1964,
+    /// The 2° observer from cone fundamentals.
     #[serde(rename = "cie-2015-2")]
     Cie2015,
 }
@@ -214,6 +226,7 @@ pub struct OwnTable {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
+    /// For people.
     pub description: Option<String>,
     /// Other names; the library looks materials up by them.
     #[serde(default)]
