@@ -318,3 +318,28 @@ fn a_lens_spreads_a_lamp_but_loses_none_of_its_light() {
     check("lens in focus", &text("f_number = 16"), 1024, 8, pinhole);
     check("lens out of focus", &text("f_number = 16, focus_distance = 30, blades = 6"), 1024, 8, pinhole);
 }
+
+#[test]
+fn a_sun_gives_its_illuminance_and_mirrors_show_its_disk() {
+    let sun = |angle: f64| {
+        format!("[[suns]]\ndirection = [1.7320508, 0, 1]\nangle = {angle}\nspectrum = \"E\"\nilluminance = 1000\n")
+    };
+    // From 60° off the normal: ρ/π E cos θ.
+    for angle in [0.533, 20.0] {
+        check("sun on a plane", &plane("[6, 0, 6]", &sun(angle)), 256, 8, 0.5 / std::f64::consts::PI * 500.0);
+    }
+    // A mirror of R = 1 in all but name looks into a sun that fills the picture: L = E/(π sin²).
+    let mirror = "materials.m.conductor = { ior = { n = 1e-6, k = 1 } }\n[[objects]]\nmaterial = \"m\"\nshape.rectangle = { size = [9, 9] }\n";
+    let view = under("[-17.320508, 0, 10]", &format!("{mirror}{}", sun(20.0))).replace("[0, 0, 0.5]", "[0, 0, 0]");
+    check("sun in a mirror", &view, 16, 8, 1000.0 / std::f64::consts::PI / 10f64.to_radians().sin().powi(2));
+    // Half a furnace: rough metal sees the sun by both ways of finding it.
+    let rough = mirror.replace("k = 1 }", "k = 1 }, roughness = 0.3");
+    let dome = |sky: &str, sun: &str| under("[0.01, 0, 6]", &format!("{sky}{rough}{sun}"));
+    let overrides = Overrides { samples: Some(1024), ..Overrides::default() };
+    let sky = replicates(&dome(SKY, ""), &overrides, 50, 16).iter().map(|xyz| xyz[1]).sum::<f64>() / 16.0;
+    let half_sky = format!(
+        "[[suns]]\ndirection = [0, 0, 1]\nangle = 179.99\nspectrum = \"E\"\nilluminance = {}\n",
+        100.0 * std::f64::consts::PI
+    );
+    check("a sun as wide as the sky", &dome("", &half_sky), 1024, 8, sky);
+}

@@ -29,7 +29,7 @@ struct Report {
     white_balance: String,
     observer: String,
     outside: String,
-    /// How many objects shine.
+    /// How many objects and suns shine.
     lights: usize,
     objects: Vec<ObjectReport>,
     physics: Vec<Decision>,
@@ -141,7 +141,7 @@ fn surface_kind(surface: &Surface) -> String {
 }
 
 fn text(report: &Report) -> String {
-    let count = format!("Objects: {}, of which {} shine", report.objects.len(), report.lights);
+    let count = format!("Objects: {}; lights: {}", report.objects.len(), report.lights);
     let objects = report.objects.iter().map(|o| [&o.name, &o.shape, &o.material, &o.kind].map(String::clone));
     let physics =
         report.physics.iter().map(|d| [d.part, if d.used { "yes" } else { "no" }, &d.reason].map(str::to_owned));

@@ -1,20 +1,33 @@
-//! Where light comes from: shapes that shine, and the environment around everything.
+//! Where light comes from: shapes that shine, suns, and the environment around everything.
 //!
-//! A shape is chosen mostly by its power and sampled over the solid angle it covers. The environment here is smooth, so paths find
+//! A shape or a sun is chosen mostly by its power and sampled over the solid angle it covers. The environment here is smooth, so paths find
 //! it best by following the surface they leave; it is never sampled by itself.
+
+mod sun;
+
+pub use sun::Sun;
 
 use crate::geometry::{Hit, ShapeId, Side, World};
 use crate::spectrum::{Lanes, SpectrumId, Tables};
 use glam::Vec3;
 
-/// A shape that shines.
+/// What an emitter is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Source {
+    /// A flat one may shine from its back too.
+    Shape {
+        id: ShapeId,
+        two_sided: bool,
+    },
+    Sun(Sun),
+}
+
+/// A light that can be aimed at.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emitter {
-    pub shape: ShapeId,
+    pub source: Source,
     /// W m⁻² sr⁻¹ nm⁻¹, the same in all directions.
     pub radiance: SpectrumId,
-    /// Whether a flat shape shines from its back too.
-    pub two_sided: bool,
     /// Luminous power in any unit common to all emitters: how often this one is chosen.
     pub power: f64,
 }
@@ -57,6 +70,8 @@ pub struct Lights {
     cumulative: Vec<f32>,
     /// The emitter of each shape.
     of_shape: Vec<Option<u32>>,
+    /// So many emitters at the end are suns.
+    suns: usize,
     pub environment: Environment,
 }
 
@@ -64,8 +79,9 @@ pub struct Lights {
 #[derive(Clone, Copy, Debug)]
 pub struct LightSample {
     pub direction: Vec3,
+    /// Infinite for a sun.
     pub distance: f32,
-    pub shape: ShapeId,
+    pub shape: Option<ShapeId>,
     pub radiance: SpectrumId,
     /// Per steradian, with the choice of the light.
     pub pdf: f32,
@@ -73,13 +89,17 @@ pub struct LightSample {
 
 impl Lights {
     /// Emitters without power are never chosen; they have nothing to give.
-    pub fn new(emitters: Vec<Emitter>, environment: Environment, shapes: usize) -> Self {
+    pub fn new(mut emitters: Vec<Emitter>, environment: Environment, shapes: usize) -> Self {
+        emitters.sort_by_key(|emitter| matches!(emitter.source, Source::Sun(_)));
+        let suns = emitters.iter().filter(|emitter| matches!(emitter.source, Source::Sun(_))).count();
         let cumulative = shares(&emitters);
         let mut of_shape = vec![None; shapes];
         for (index, emitter) in emitters.iter().enumerate() {
-            of_shape[emitter.shape.0 as usize] = Some(index as u32);
+            if let Source::Shape { id, .. } = emitter.source {
+                of_shape[id.0 as usize] = Some(index as u32);
+            }
         }
-        Self { emitters, cumulative, of_shape, environment }
+        Self { emitters, cumulative, of_shape, suns, environment }
     }
 
     pub fn emitters(&self) -> &[Emitter] {
@@ -95,23 +115,46 @@ impl Lights {
     #[inline]
     pub fn sample(&self, world: &World, from: Vec3, choice: f32, u: [f32; 2]) -> Option<LightSample> {
         let index = self.cumulative.partition_point(|&share| share <= choice);
-        let emitter = *self.emitters.get(index)?;
-        let toward = world.shape(emitter.shape)?.sample_toward(from, u)?;
-        let front = toward.normal.dot(toward.direction) < 0.0;
-        (front || emitter.two_sided).then_some(LightSample {
-            direction: toward.direction,
-            distance: toward.distance,
-            shape: emitter.shape,
-            radiance: emitter.radiance,
-            pdf: toward.pdf * self.probability(index),
-        })
+        let Emitter { source, radiance, .. } = *self.emitters.get(index)?;
+        let probability = self.probability(index);
+        match source {
+            Source::Sun(sun) => Some(LightSample {
+                direction: sun.sample(u),
+                distance: f32::INFINITY,
+                shape: None,
+                radiance,
+                pdf: sun.pdf() * probability,
+            }),
+            Source::Shape { id, two_sided } => {
+                let toward = world.shape(id)?.sample_toward(from, u)?;
+                let front = toward.normal.dot(toward.direction) < 0.0;
+                (front || two_sided).then_some(LightSample {
+                    direction: toward.direction,
+                    distance: toward.distance,
+                    shape: Some(id),
+                    radiance,
+                    pdf: toward.pdf * probability,
+                })
+            }
+        }
     }
 
     /// What shines at a hit towards where the ray came from.
     #[inline]
     pub fn emitted(&self, hit: &Hit) -> Option<SpectrumId> {
-        let emitter = self.emitters[self.of_shape[hit.shape.0 as usize]? as usize];
-        (hit.side == Side::Outside || emitter.two_sided).then_some(emitter.radiance)
+        let Emitter { source, radiance, .. } = self.emitters[self.of_shape[hit.shape.0 as usize]? as usize];
+        let both = matches!(source, Source::Shape { two_sided: true, .. });
+        (hit.side == Side::Outside || both).then_some(radiance)
+    }
+
+    /// The suns in a direction, each with the density with which [`Self::sample`] gives it, per steradian.
+    #[inline]
+    pub fn suns(&self, direction: Vec3) -> impl Iterator<Item = (SpectrumId, f32)> {
+        let first = self.emitters.len() - self.suns;
+        self.emitters[first..].iter().zip(first..).filter_map(move |(emitter, index)| match emitter.source {
+            Source::Sun(sun) if sun.meets(direction) => Some((emitter.radiance, sun.pdf() * self.probability(index))),
+            _ => None,
+        })
     }
 
     /// The density with which [`Self::sample`] gives the direction from `from` to a hit on a light, per steradian.

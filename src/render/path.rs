@@ -122,7 +122,11 @@ impl Kernel<'_> {
     /// What has escaped is outside of all solids, whatever was entered where surfaces coincide.
     #[inline]
     fn environment<const N: usize>(&self, path: &Path<N>) -> Lanes<N> {
-        let arriving = self.scene.lights.environment.radiance(&self.tables, path.ray.direction, path.offset);
+        let (lights, direction) = (&self.scene.lights, path.ray.direction);
+        let mut arriving = lights.environment.radiance(&self.tables, direction, path.offset);
+        for (radiance, light_pdf) in lights.suns(direction) {
+            arriving += self.tables.get(radiance, path.offset) * power_heuristic(path.pdf, light_pdf);
+        }
         path.throughput * arriving * self.transmittance(MediumId::OUTSIDE, f32::INFINITY, path.offset)
     }
 

@@ -62,7 +62,7 @@ impl Kernel<'_> {
             return Lanes::ZERO;
         }
         let shadow = Ray::leaving(hit, hit.side, light.direction);
-        if world.occluded(&shadow, light.distance, Some(light.shape)) {
+        if world.occluded(&shadow, light.distance, light.shape) {
             return Lanes::ZERO;
         }
         let arriving = self.tables.get::<N>(light.radiance, path.offset)

@@ -30,6 +30,8 @@ pub struct SceneFile {
     pub picture: Picture,
     pub environment: Option<Spanned<Environment>>,
     #[serde(default)]
+    pub suns: Vec<Spanned<SunLight>>,
+    #[serde(default)]
     pub materials: BTreeMap<String, Spanned<Material>>,
     #[serde(default)]
     pub objects: Vec<Spanned<Object>>,
@@ -173,6 +175,21 @@ pub struct Gradient {
     pub zenith: Emission,
     pub horizon: Emission,
     pub nadir: Emission,
+}
+
+/// A disk infinitely far away: the sun, or the moon. It has a size, so that mirrors show it.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SunLight {
+    /// Where it stands, seen from the scene.
+    pub direction: Vector,
+    /// Its diameter in degrees; 0.533, the sun's, unless given.
+    pub angle: Option<Number>,
+    pub spectrum: Spanned<LightSpectrum>,
+    /// lx on a surface that faces it.
+    pub illuminance: Option<Number>,
+    /// W m⁻² over 360–830 nm on a surface that faces it.
+    pub irradiance: Option<Number>,
 }
 
 /// A spectrum with a strength: one of `luminance`, `radiance` and `scale`. It is the radiance in the medium that the light

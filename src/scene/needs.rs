@@ -148,12 +148,12 @@ fn light_sampling(scene: &Scene) -> Decision {
         Surface::Black | Surface::Dielectric(_) => false,
     };
     match (shining, objects_with(scene, lit).is_empty()) {
-        (0, _) => decision("light sampling", false, "no shape shines"),
+        (0, _) => decision("light sampling", false, "nothing shines that could be aimed at"),
         (_, true) => {
             decision("light sampling", false, "every surface is smooth: its one direction finds the light or not")
         }
-        (1, false) => decision("light sampling", true, "one shape shines on surfaces that scatter"),
-        (count, false) => decision("light sampling", true, format!("{count} shapes shine on surfaces that scatter")),
+        (1, false) => decision("light sampling", true, "one light shines on surfaces that scatter"),
+        (count, false) => decision("light sampling", true, format!("{count} lights shine on surfaces that scatter")),
     }
 }
 

@@ -221,7 +221,14 @@ fn cameras_must_see() {
 
 #[test]
 fn lights_must_have_a_strength_that_can_be() {
+    let sun = |keys: &str| format!("{CAMERA}[[suns]]\n{keys}\n");
     all_refused_at_mark(&[
+        (sun("direction = §[0, 0, 0]\nspectrum = \"D65\"\nilluminance = 1"), &["a direction other than zero"]),
+        (sun("direction = [0, 0, 1]\nangle = §400\nspectrum = \"D65\"\nilluminance = 1"), &["180°"]),
+        (sun("direction = [0, 0, 1]\nangle = §-1\nspectrum = \"D65\"\nilluminance = 1"), &["`angle` is -1"]),
+        (sun("direction = [0, 0, 1]\nspectrum = §\"D65\""), &["how strong is the sun", "lx"]),
+        (sun("direction = [0, 0, 1]\nspectrum = \"D65\"\nilluminance = §nan"), &["`illuminance` is NaN"]),
+        (sun("direction = [0, 0, 1]\nspectrum = \"D65\"\nilluminance = 1\nirradiance = §1"), &["both say how strong"]),
         (light("emission = { spectrum = §\"D50\" }"), &["how strong", "`luminance` in cd/m²"]),
         (light("emission = { spectrum = \"D50\", luminance = 1, radiance = §2 }"), &["`luminance` and `radiance`"]),
         (light("emission = { spectrum = \"D50\", luminance = §-1 }"), &["`luminance` is -1"]),

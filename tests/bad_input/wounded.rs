@@ -103,6 +103,11 @@ exposure = "auto"
 white_balance = "scene"
 gamut = "preserve-chroma"
 observer = "cie-2015-2"
+[[suns]]
+direction = [1, 0, 2]
+angle = 1
+spectrum = { blackbody = 5778 }
+illuminance = 900
 [environment]
 constant = { spectrum = { table = { wavelength_nm = [400, 500.5, 700], value = [1, 2, 3] } }, scale = 0.5 }
 [materials.glass.dielectric]

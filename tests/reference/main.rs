@@ -29,6 +29,10 @@ const EXAMPLES: &[(&str, &str)] = &[
     ),
     ("Environment", "[environment.constant]\nspectrum = \"D65\"\nluminance = 120"),
     (
+        "Sun light",
+        "[[suns]]\ndirection = [0.3, -0.5, 0.8]\nangle = 0.533\nspectrum = { blackbody = 5778 }\nilluminance = 90000",
+    ),
+    (
         "Gradient",
         "[environment.gradient]\nzenith = { spectrum = { daylight = 7000 }, luminance = 300 }\nhorizon = { spectrum = \"D65\", luminance = 120 }\nnadir = { spectrum = \"A\", luminance = 10 }",
     ),

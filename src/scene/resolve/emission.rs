@@ -1,7 +1,7 @@
 //! Lights: a spectrum and a strength become spectral radiance in W m⁻² sr⁻¹ nm⁻¹.
 
-use super::Resolver;
-use crate::light::Environment;
+use super::{Resolver, vector};
+use crate::light::{Emitter, Environment, Source, Sun};
 use crate::scene::SceneError;
 use crate::scene::describe::{self, LightSpectrum, OwnLight};
 use crate::scene::numbers::Numbers;
@@ -13,6 +13,9 @@ use toml::Spanned;
 
 /// cd/m². Single samples of a light with few wavelengths are brighter, and the film counts them up to 5e11.
 const BRIGHTEST: f64 = 1e11;
+
+/// Mean diameter of the sun from the earth, degrees.
+const SUN_DEGREES: f64 = 0.533;
 
 /// A light with the strength it was given.
 pub struct Resolved {
@@ -43,18 +46,57 @@ impl Resolver<'_> {
         })
     }
 
+    /// A sun, and how much it matters beside the lights of a scene in a box of this half-diagonal.
+    pub fn sun(&mut self, sun: &describe::SunLight, half_diagonal: f64) -> Result<Emitter, SceneError> {
+        let angle = sun.angle.as_ref().map_or(Ok(SUN_DEGREES), |angle| self.positive(angle, "`angle`"))?;
+        let place = sun.angle.as_ref().map_or(sun.direction.span(), Spanned::span);
+        let toward = vector(sun.direction.get_ref().values());
+        let Some(disk) = Sun::new(toward, angle.to_radians() / 2.0) else {
+            let message = "a sun needs a direction other than zero and an angle between 0.0002° and 180°";
+            return Err(self.text.error(&place, message));
+        };
+        let span = sun.spectrum.span();
+        let (spectrum, _) = self.light_spectrum(sun.spectrum.get_ref(), &span, "the sun")?;
+        let facing = disk.projected_solid_angle();
+        let factor = match (&sun.illuminance, &sun.irradiance) {
+            (Some(lux), None) => {
+                self.factor("luminance", self.not_negative(lux, "illuminance")? / facing, &spectrum, &span)?
+            }
+            (None, Some(watts)) => {
+                self.factor("radiance", self.not_negative(watts, "irradiance")? / facing, &spectrum, &span)?
+            }
+            (Some(_), Some(watts)) => {
+                let message = "`illuminance` and `irradiance` both say how strong the sun is";
+                return Err(self.text.error(&watts.span(), message));
+            }
+            (None, None) => {
+                let help = "give `illuminance` in lx (the sun at noon: 100000) or `irradiance` in W m⁻²";
+                return Err(self.text.error(&span, "how strong is the sun?").help(help));
+            }
+        };
+        let light = self.scaled(spectrum, factor, &span)?;
+        // Light through the cross-section of the scene, over the π that a lamp's power lacks too.
+        let power = light.luminance * facing * half_diagonal * half_diagonal;
+        self.white_candidates.push((power, light.id));
+        Ok(Emitter { source: Source::Sun(disk), radiance: light.id, power })
+    }
+
     /// Spectral radiance of a light, checked and scaled.
     pub fn emission(&mut self, emission: &describe::Emission, used_by: &str) -> Result<Resolved, SceneError> {
         let span = emission.spectrum.span();
         let (spectrum, absolute) = self.light_spectrum(emission.spectrum.get_ref(), &span, used_by)?;
         let factor = self.strength(emission, &spectrum, absolute, &span)?;
+        self.scaled(spectrum, factor, &span)
+    }
+
+    fn scaled(&mut self, spectrum: Spectrum, factor: f64, span: &Range<usize>) -> Result<Resolved, SceneError> {
         let spectrum = spectrum.scaled(factor);
         let luminance = luminance(&spectrum, &self.observer_1931);
         if !(0.0..=BRIGHTEST).contains(&luminance) {
             let message = format!(
                 "this light has {luminance:.2e} cd/m²: it can have up to {BRIGHTEST:e} (the sun's disc has 1.6e9)"
             );
-            return Err(self.text.error(&span, message));
+            return Err(self.text.error(span, message));
         }
         Ok(Resolved { id: self.spectra.add(spectrum), luminance })
     }
@@ -148,9 +190,11 @@ impl Resolver<'_> {
                 .error(&second.span(), format!("`{name}` and `{other}` both say how strong the light is")));
         }
         let value = self.not_negative(number, name)?;
-        if name == "scale" {
-            return Ok(value);
-        }
+        if name == "scale" { Ok(value) } else { self.factor(name, value, spectrum, span) }
+    }
+
+    /// The factor that gives a spectrum a luminance or a radiance.
+    fn factor(&self, name: &str, value: f64, spectrum: &Spectrum, span: &Range<usize>) -> Result<f64, SceneError> {
         let own = match name {
             "luminance" => luminance(spectrum, &self.observer_1931),
             _ => integrate(&[spectrum]),

@@ -76,12 +76,15 @@ impl Resolver<'_> {
         let vacuum = self.spectra.add(Spectrum::Constant(1.0));
         self.media.push(Medium { name: "vacuum".into(), n: vacuum, absorption: None, dispersive: false });
         file.outside.as_ref().map(|name| self.outside(name)).transpose()?;
-        let Objects { mut objects, shapes, emitters } = self.objects(&file.objects)?;
+        let Objects { mut objects, shapes, mut emitters } = self.objects(&file.objects)?;
         let world = World::new(shapes).map_err(|error| self.text.whole(error))?;
         let environment = match &file.environment {
             Some(environment) => self.environment(environment.get_ref(), surface(&world.bounds()))?,
             None => Environment::Dark,
         };
+        for sun in &file.suns {
+            emitters.push(self.sun(sun.get_ref(), f64::from(world.bounds().size().length()) / 2.0)?);
+        }
         let camera = self.camera(&file.camera, [settings.width, settings.height], &world, &objects)?;
         let picture = self.picture(&file.picture)?;
         self.find_stones(&world, &mut objects);

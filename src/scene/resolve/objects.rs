@@ -2,7 +2,7 @@
 
 use super::Resolver;
 use crate::geometry::{Shape, ShapeId, World};
-use crate::light::Emitter;
+use crate::light::{Emitter, Source};
 use crate::scene::describe;
 use crate::scene::{Inside, Object, SceneError, Surface};
 use toml::Spanned;
@@ -64,7 +64,7 @@ impl Resolver<'_> {
         }
         let power = light.luminance * f64::from(shape.area()) * if two_sided { 2.0 } else { 1.0 };
         self.white_candidates.push((power, light.id));
-        Ok(Emitter { shape: id, radiance: light.id, two_sided, power })
+        Ok(Emitter { source: Source::Shape { id, two_sided }, radiance: light.id, power })
     }
 
     fn check_dielectric(&self, object: &describe::Object, shape: &Shape, name: &str) -> Result<(), SceneError> {
