@@ -2,7 +2,7 @@
 
 use divan::{Bencher, black_box};
 use glam::Vec3;
-use spectrel::bsdf::{Bsdf, Directions, Frame, albedo::albedo, choose, dielectric};
+use spectrel::bsdf::{Bsdf, Directions, Frame, RoughDielectric, albedo, choose, dielectric};
 use spectrel::fresnel::{FresnelModel, dielectric::fresnel};
 use spectrel::spectrum::Lanes;
 
@@ -54,6 +54,36 @@ fn eval_rough_metal(bencher: Bencher, model: &FresnelModel) {
     });
 }
 
+fn rough_glass(model: FresnelModel) -> RoughDielectric<8> {
+    let n2 = Lanes([1.86, 1.83, 1.81, 1.80, 1.79, 1.78, 1.775, 1.77]);
+    RoughDielectric::new(black_box(model), &Lanes::ONE, black_box(&n2), 0.3)
+}
+
+#[divan::bench(args = FresnelModel::ALL)]
+fn sample_rough_glass(bencher: Bencher, model: &FresnelModel) {
+    let (bsdf, points, wo) = (black_box(rough_glass(*model)), points(), black_box(Vec3::new(0.6, 0.0, 0.8)));
+    bencher.bench_local(|| {
+        let samples = points.iter().filter_map(|&u| bsdf.sample(wo, u, (7.0 * u[0]).fract()));
+        samples.fold(Lanes::ZERO, |sum, s| sum + s.weight * (s.wi.x + s.pdf))
+    });
+}
+
+/// Half of the directions above the surface, half below.
+#[divan::bench(args = FresnelModel::ALL)]
+fn eval_rough_glass(bencher: Bencher, model: &FresnelModel) {
+    let (bsdf, wo) = (black_box(rough_glass(*model)), black_box(Vec3::new(0.6, 0.0, 0.8)));
+    let side = |i: usize| if i.is_multiple_of(2) { 0.7 } else { -0.7 };
+    let points = points();
+    let directions: Vec<_> =
+        points.iter().enumerate().map(|(i, u)| Vec3::new(u[0] - 0.8, u[1] - 0.5, side(i)).normalize()).collect();
+    bencher.bench_local(|| {
+        directions.iter().fold(Lanes::ZERO, |sum, &wi| {
+            let eval = bsdf.eval(wo, wi);
+            sum + eval.f_cos * eval.pdf
+        })
+    });
+}
+
 /// Fresnel, shared choice and eight refracted directions at a dispersive facet.
 #[divan::bench]
 fn dispersive_interface(bencher: Bencher) {
@@ -84,5 +114,11 @@ fn frame(bencher: Bencher) {
 /// One call.
 #[divan::bench(args = [1e-3, 0.1, 1.0])]
 fn reference_albedo(bencher: Bencher, alpha: f64) {
-    bencher.bench_local(|| albedo(alpha, black_box(0.3), |c| c));
+    bencher.bench_local(|| albedo::albedo(alpha, black_box(0.3), |c| c));
+}
+
+/// One call.
+#[divan::bench(args = [0.05, 1.0], sample_count = 10)]
+fn reference_albedo_of_glass(bencher: Bencher, alpha: f64) {
+    bencher.bench_local(|| albedo::dielectric(alpha, black_box(0.3), [1.0, 1.5], |c| 1.0 - c));
 }

@@ -1,4 +1,4 @@
-//! The GGX distribution of facets: density, shadowing and visible normals, isotropic, for reflection.
+//! The GGX distribution of facets: density, shadowing and visible normals, isotropic, for reflection and refraction.
 //!
 //! With the unnormalised half-vector h = ωo + ωi, L² = |h|² and z the cosine against the macroscopic normal:
 //!
@@ -45,6 +45,17 @@ impl Visible {
         Self { wo, alpha, t: (alpha2 * tangential + z2).sqrt(), tangential, one_minus_k }
     }
 
+    /// Without the bound: k = 1, for facets that also refract.
+    #[inline]
+    pub fn all(wo: Vec3, alpha: f32) -> Self {
+        Self { one_minus_k: 0.0, ..Self::new(wo, alpha) }
+    }
+
+    #[inline]
+    pub fn wo(&self) -> Vec3 {
+        self.wo
+    }
+
     /// k z_o + t_o.
     #[inline]
     fn bound(&self) -> f32 {
@@ -80,6 +91,18 @@ impl Visible {
         wi.z * self.bound() / self.smith(wi)
     }
 
+    /// f cos θ_i/((1 − F) pdf) for ωi on the other side, if k = 1: G2/G1(ωo) = (1 + Λo) B(1 + Λo, 1 + Λi).
+    #[inline]
+    pub fn weight_below(&self, wi: Vec3) -> f32 {
+        let alpha2 = self.alpha * self.alpha;
+        let lambda = |tangential: f32, z: f32| {
+            let t = (alpha2 * tangential + z * z).sqrt();
+            f64::from((0.5 * alpha2 * tangential / (z * (t + z))).min(1e8))
+        };
+        let below = lambda(wi.x * wi.x + wi.y * wi.y, -wi.z);
+        both_sides(lambda(self.tangential, self.wo.z), below) as f32
+    }
+
     /// f cos θ_i/F for a facet of density D.
     #[inline]
     pub fn reflected(&self, wi: Vec3, density: f32) -> f32 {
@@ -103,12 +126,39 @@ pub(super) fn density(half: Vec3, alpha: f32) -> f32 {
     root * root * FRAC_1_PI
 }
 
+/// (1 + a) B(1 + a, 1 + b) = Γ(2 + a) Γ(1 + b)/Γ(2 + a + b) for 0 ≤ a, b ≤ 1e8: Stirling's series four steps up the recurrence
+/// (Abramowitz & Stegun, 1964, 6.1.15 and 6.1.41).
+#[inline]
+fn both_sides(a: f64, b: f64) -> f64 {
+    let rising = |x: f64| x * (x + 1.0) * (x + 2.0) * (x + 3.0);
+    let ln_gamma = |x: f64| {
+        let inverse2 = 1.0 / (x * x);
+        let series = (1.0 / 12.0 + inverse2 * (-1.0 / 360.0 + inverse2 * (1.0 / 1260.0))) / x;
+        (x - 0.5) * libm::log(x) - x + series
+    };
+    const HALF_LN_TAU: f64 = 0.918_938_533_204_672_8;
+    let above = ln_gamma(6.0 + a) - ln_gamma(6.0 + a + b) + ln_gamma(5.0 + b) + HALF_LN_TAU;
+    let shift = rising(2.0 + a + b) / rising(2.0 + a) / rising(1.0 + b);
+    (libm::exp(above) * shift).min(1.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::fresnel::quadrature::gauss;
     use glam::DVec3;
     use std::f64::consts::{PI, TAU};
+
+    #[test]
+    fn masking_from_both_sides_is_the_beta_function() {
+        for a in [0.0, 1e-6, 0.1, 0.5, 2.0, 30.0, 1e4] {
+            assert!((both_sides(a, 0.0) - 1.0).abs() < 1e-7, "{a}");
+            for b in [0.0, 1e-3, 0.3, 1.0, 7.0, 100.0] {
+                let expected = libm::exp(libm::lgamma(2.0 + a) + libm::lgamma(1.0 + b) - libm::lgamma(2.0 + a + b));
+                assert!((both_sides(a, b) - expected).abs() < 1e-7 * expected + 1e-30, "{a} {b}");
+            }
+        }
+    }
 
     fn slanted(degrees: f64, azimuth: f64) -> DVec3 {
         let sin = libm::sin(degrees.to_radians());

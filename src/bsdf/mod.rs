@@ -1,7 +1,8 @@
 //! Light at a surface, in the local frame: z is the normal, ωo the direction to the viewer, ωi to the light.
 //!
 //! A `Bsdf` is made per hit from the material and the wavelengths of the path, then asked three verbs: `sample`, `eval`, and
-//! whether it `is_delta`. Smooth dielectrics, where lanes part, are not a lobe but directions (`dielectric`) and a choice (`branch`).
+//! whether it `is_delta`. Smooth dielectrics, where lanes part, are not a lobe but directions (`dielectric`) and a choice (`branch`);
+//! rough ones (`rough_dielectric`) send all lanes one way, to either side.
 
 pub mod albedo;
 pub mod branch;
@@ -11,11 +12,13 @@ mod diffuse;
 mod directions;
 mod frame;
 mod ggx;
+pub mod rough_dielectric;
 mod turn;
 
 pub use branch::{Choice, choose};
 pub use directions::Directions;
 pub use frame::Frame;
+pub use rough_dielectric::RoughDielectric;
 
 use crate::fresnel::Fresnel;
 use crate::spectrum::Lanes;
