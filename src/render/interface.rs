@@ -1,7 +1,8 @@
-//! A path at a smooth dielectric boundary: reflected or refracted, and parted where the index disperses.
+//! A path at a dielectric boundary: reflected or refracted, and parted where a smooth one disperses.
 
 use super::Kernel;
 use super::path::{Outcome, Path};
+use super::rough::Rough;
 use super::stone::Entry;
 use crate::bsdf::dielectric::{reflect, refract, refract_lanes};
 use crate::bsdf::{Directions, choose};
@@ -11,7 +12,7 @@ use crate::scene::{Inside, Interface};
 use crate::spectrum::Lanes;
 
 impl Kernel<'_> {
-    /// A smooth dielectric boundary: one of reflection and refraction is followed, all lanes alike.
+    /// A dielectric boundary: one of reflection and refraction is followed, all lanes alike.
     #[inline]
     pub fn interface<const N: usize>(
         &self,
@@ -21,15 +22,20 @@ impl Kernel<'_> {
         sampler: &mut Sampler,
         radiance: &mut Lanes<N>,
     ) -> Outcome {
-        let &Interface { medium, model } = interface;
+        let &Interface { medium, model, .. } = interface;
         let entering = hit.side == Side::Outside;
         // Where solids overlap the one entered last fills the space: leaving another changes nothing.
         let from = path.media.current();
         let to = if entering { medium } else { path.media.without(medium) };
         if from == to {
             path.media.cross(medium, entering);
+            // No shadow ray comes through here: a light that this ray meets counts in full.
+            path.pdf = f32::INFINITY;
             path.ray = Ray::leaving(hit, hit.side.opposite(), path.ray.direction);
             return Outcome::GoesOn;
+        }
+        if interface.is_rough() {
+            return self.rough_interface(&Rough { interface, from, to }, path, hit, sampler, radiance);
         }
         let (n1, n2) = (self.n(from, path.offset), self.n(to, path.offset));
         let normal = if entering { hit.normal } else { -hit.normal };

@@ -131,7 +131,9 @@ impl Kernel<'_> {
     fn emission<const N: usize>(&self, path: &Path<N>, hit: &Hit) -> Lanes<N> {
         let lights = &self.scene.lights;
         let Some(radiance) = lights.emitted(hit) else { return Lanes::ZERO };
-        let emitted = path.throughput * self.tables.get(radiance, path.offset) * self.compression(path);
+        let emitted = path.throughput
+            * self.tables.get(radiance, path.offset)
+            * self.compression(path.media.current(), path.offset);
         if path.pdf == f32::INFINITY {
             return emitted;
         }
@@ -143,12 +145,11 @@ impl Kernel<'_> {
     /// (Nicodemus 1963), so a light inside glass looks n² times dimmer from outside. Counted where light joins the path,
     /// it needs no state and leaves the throughput that roulette looks at alone.
     #[inline]
-    pub fn compression<const N: usize>(&self, path: &Path<N>) -> Lanes<N> {
-        let medium = path.media.current();
+    pub fn compression<const N: usize>(&self, medium: MediumId, offset: u32) -> Lanes<N> {
         if medium == MediumId::OUTSIDE {
             return Lanes::ONE;
         }
-        let ratio = self.n::<N>(MediumId::OUTSIDE, path.offset) / self.n(medium, path.offset);
+        let ratio = self.n::<N>(MediumId::OUTSIDE, offset) / self.n(medium, offset);
         ratio * ratio
     }
 

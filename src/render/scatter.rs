@@ -4,7 +4,9 @@ use super::Kernel;
 use super::path::{Outcome, Path};
 use crate::bsdf::{Bsdf, Frame};
 use crate::geometry::{Hit, Ray, Side};
+use crate::light::LightSample;
 use crate::sampler::Sampler;
+use crate::scene::MediumId;
 use crate::spectrum::Lanes;
 use glam::Vec3;
 
@@ -61,12 +63,26 @@ impl Kernel<'_> {
         if value.pdf == 0.0 {
             return Lanes::ZERO;
         }
-        let shadow = Ray::leaving(hit, hit.side, light.direction);
-        if world.occluded(&shadow, light.distance, Some(light.shape)) {
+        let arriving = self.arriving(&light, hit, hit.side, path.media.current(), path.offset);
+        value.f_cos * arriving * (power_heuristic(light.pdf, value.pdf) / light.pdf)
+    }
+
+    /// What a point of a light sends to one side of a hit through the medium there, in the measure of a path's throughput.
+    #[inline]
+    pub fn arriving<const N: usize>(
+        &self,
+        light: &LightSample,
+        hit: &Hit,
+        side: Side,
+        medium: MediumId,
+        offset: u32,
+    ) -> Lanes<N> {
+        let shadow = Ray::leaving(hit, side, light.direction);
+        if self.scene.world.occluded(&shadow, light.distance, Some(light.shape)) {
             return Lanes::ZERO;
         }
-        let arriving = self.tables.get::<N>(light.radiance, path.offset)
-            * self.transmittance(path.media.current(), light.distance, path.offset);
-        value.f_cos * arriving * self.compression(path) * (power_heuristic(light.pdf, value.pdf) / light.pdf)
+        self.tables.get::<N>(light.radiance, offset)
+            * self.transmittance(medium, light.distance, offset)
+            * self.compression(medium, offset)
     }
 }

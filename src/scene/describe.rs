@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use toml::Spanned;
 
 pub type Vector = Spanned<Numbers<3>>;
-type Number = Spanned<f64>;
+pub type Number = Spanned<f64>;
 
 /// Keys of a scene that stand above its first table: below one they would belong to that.
 pub const TOP_KEYS: [&str; 2] = ["meters_per_unit", "outside"];
@@ -228,13 +228,17 @@ pub struct Conductor {
     pub fresnel: Option<FresnelModel>,
 }
 
-/// A smooth, clear or coloured solid such as glass, water or a gem.
+/// A clear or coloured solid such as glass, water or a gem. Smooth unless one of the two words for roughness is given.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Dielectric {
     pub ior: Spanned<IndexSource>,
     /// From the k of `ior` unless given.
     pub absorption: Option<Spanned<AbsorptionSource>>,
+    /// GGX α, 0…1.
+    pub roughness: Option<Number>,
+    /// r with α = r².
+    pub perceptual_roughness: Option<Number>,
     /// `exact` unless given.
     pub fresnel: Option<FresnelModel>,
 }

@@ -12,6 +12,7 @@ pub use error::{Place, SceneError, Text};
 pub use needs::{Decision, Needs, listed};
 pub use resolve::{Overrides, resolve};
 
+use crate::bsdf::conductor::MIRROR_ALPHA;
 use crate::camera::{Camera, Filter};
 use crate::fresnel::FresnelModel;
 use crate::geometry::{ShapeId, World};
@@ -67,12 +68,22 @@ pub enum Surface {
     Dielectric(Interface),
 }
 
-/// The smooth boundary of a closed solid.
+/// The boundary of a closed solid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interface {
     /// What fills the solid.
     pub medium: MediumId,
+    /// GGX α of its surface.
+    pub alpha: f32,
     pub model: FresnelModel,
+}
+
+impl Interface {
+    /// Whether it scatters all lanes one way, instead of parting them into directions of their own.
+    #[inline]
+    pub fn is_rough(&self) -> bool {
+        self.alpha >= MIRROR_ALPHA
+    }
 }
 
 /// How the inside of a dielectric solid is traced.

@@ -1,6 +1,6 @@
 //! Which physics a scene uses, and why: what it does not need is neither loaded nor run.
 
-use super::{Inside, Interface, MediumId, Scene, Surface};
+use super::{Inside, Interface, MediumId, Object, Scene, Surface};
 use crate::light::Environment;
 use crate::spectrum::Density;
 use serde::Serialize;
@@ -32,7 +32,7 @@ impl Needs {
             stones(scene),
             absorption(scene),
             immersion(scene),
-            rough_metal(scene),
+            microfacets(scene),
             light_sampling(scene),
             environment(scene),
         ];
@@ -89,13 +89,15 @@ fn wavelengths(lines: &[f64]) -> Decision {
 
 fn dispersion(scene: &Scene) -> Decision {
     let disperses = |surface: &Surface| match surface {
-        Surface::Dielectric(Interface { medium, .. }) => {
+        Surface::Dielectric(interface @ Interface { medium, .. }) if !interface.is_rough() => {
             scene.medium(*medium).dispersive || scene.medium(MediumId::OUTSIDE).dispersive
         }
         _ => false,
     };
     match objects_with(scene, disperses) {
-        names if names.is_empty() => decision("dispersion", false, "no dielectric's index changes with wavelength"),
+        names if names.is_empty() => {
+            decision("dispersion", false, "no smooth dielectric's index changes with wavelength")
+        }
         names => decision(
             "dispersion",
             true,
@@ -105,9 +107,15 @@ fn dispersion(scene: &Scene) -> Decision {
 }
 
 fn stones(scene: &Scene) -> Decision {
-    let alone = scene.objects.iter().filter(|object| object.inside == Inside::Alone);
+    let smooth = |object: &&Object| match scene.surfaces[object.surface as usize] {
+        Surface::Dielectric(interface) => !interface.is_rough(),
+        _ => false,
+    };
+    let alone = scene.objects.iter().filter(|object| object.inside == Inside::Alone).filter(smooth);
     match alone.map(|object| object.name.as_str()).collect::<Vec<_>>() {
-        names if names.is_empty() => decision("stone kernel", false, "no convex dielectric solid with nothing in it"),
+        names if names.is_empty() => {
+            decision("stone kernel", false, "no smooth convex dielectric solid with nothing in it")
+        }
         names => {
             let reason = format!("nothing reaches into {}: traced facet by facet, all lanes at once", listed(&names));
             decision("stone kernel", true, reason)
@@ -132,10 +140,14 @@ fn immersion(scene: &Scene) -> Decision {
     }
 }
 
-fn rough_metal(scene: &Scene) -> Decision {
-    let rough = |surface: &Surface| matches!(surface, Surface::Conductor { alpha, .. } if *alpha > 0.0);
+fn microfacets(scene: &Scene) -> Decision {
+    let rough = |surface: &Surface| match surface {
+        Surface::Conductor { alpha, .. } => *alpha > 0.0,
+        Surface::Dielectric(interface) => interface.is_rough(),
+        Surface::Black | Surface::Diffuse { .. } => false,
+    };
     match objects_with(scene, rough) {
-        names if names.is_empty() => decision("microfacets", false, "no rough conductor"),
+        names if names.is_empty() => decision("microfacets", false, "no rough conductor or dielectric"),
         names => decision("microfacets", true, format!("rough: {}", listed(&names))),
     }
 }
@@ -145,7 +157,8 @@ fn light_sampling(scene: &Scene) -> Decision {
     let lit = |surface: &Surface| match surface {
         Surface::Diffuse { .. } => true,
         Surface::Conductor { alpha, .. } => *alpha > 0.0,
-        Surface::Black | Surface::Dielectric(_) => false,
+        Surface::Dielectric(interface) => interface.is_rough(),
+        Surface::Black => false,
     };
     match (shining, objects_with(scene, lit).is_empty()) {
         (0, _) => decision("light sampling", false, "no shape shines"),

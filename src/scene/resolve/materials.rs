@@ -80,8 +80,9 @@ impl Resolver<'_> {
             (None, Some(dielectric), None) => {
                 let medium = self.medium(described, dielectric)?;
                 let medium = self.add_medium(medium, described)?;
-                let model = self.model(dielectric.get_ref().fresnel);
-                Ok(Surface::Dielectric(Interface { medium, model }))
+                let dielectric = dielectric.get_ref();
+                let alpha = roughness(text, &dielectric.roughness, &dielectric.perceptual_roughness)? as f32;
+                Ok(Surface::Dielectric(Interface { medium, alpha, model: self.model(dielectric.fresnel) }))
             }
             (None, None, Some(diffuse)) => self.diffuse(described, diffuse.get_ref()),
             (None, None, None) => Err(text
@@ -106,7 +107,7 @@ impl Resolver<'_> {
 
     fn conductor(&mut self, described: &Described, conductor: &describe::Conductor) -> Result<Surface, SceneError> {
         let ior = self.ior(described, &conductor.ior)?;
-        let alpha = roughness(&described.text, conductor)?;
+        let alpha = roughness(&described.text, &conductor.roughness, &conductor.perceptual_roughness)?;
         Ok(Surface::Conductor {
             n: self.spectra.add(ior.n.clone()),
             k: self.spectra.add(ior.k.clone()),
@@ -212,8 +213,12 @@ impl Resolver<'_> {
 }
 
 /// GGX α from either of the two words for it.
-fn roughness(text: &Text, conductor: &describe::Conductor) -> Result<f64, SceneError> {
-    let (number, name) = match (&conductor.roughness, &conductor.perceptual_roughness) {
+fn roughness(
+    text: &Text,
+    alpha: &Option<describe::Number>,
+    perceptual: &Option<describe::Number>,
+) -> Result<f64, SceneError> {
+    let (number, name) = match (alpha, perceptual) {
         (None, None) => return Ok(0.0),
         (Some(alpha), None) => (alpha, "roughness"),
         (None, Some(r)) => (r, "perceptual_roughness"),

@@ -1,0 +1,92 @@
+//! A path at a rough dielectric boundary: light sampled directly on both sides, then a new direction on either.
+//!
+//! All lanes go one way, whatever the index does (`bsdf::rough_dielectric`): nothing parts here, and a lane that has parted
+//! elsewhere goes on alone with a density of its own.
+
+use super::Kernel;
+use super::path::{Outcome, Path};
+use super::scatter::power_heuristic;
+use crate::bsdf::{Frame, RoughDielectric};
+use crate::geometry::{Hit, Ray, Side};
+use crate::sampler::Sampler;
+use crate::scene::{Interface, MediumId};
+use crate::spectrum::Lanes;
+use glam::Vec3;
+
+/// A rough boundary as a path meets it.
+pub struct Rough<'a> {
+    pub interface: &'a Interface,
+    /// The medium that the path is in.
+    pub from: MediumId,
+    /// The medium beyond.
+    pub to: MediumId,
+}
+
+impl Kernel<'_> {
+    #[inline]
+    pub fn rough_interface<const N: usize>(
+        &self,
+        rough: &Rough,
+        path: &mut Path<N>,
+        hit: &Hit,
+        sampler: &mut Sampler,
+        radiance: &mut Lanes<N>,
+    ) -> Outcome {
+        let Interface { medium, alpha, model } = *rough.interface;
+        let entering = hit.side == Side::Outside;
+        let frame = Frame::new(if entering { hit.normal } else { -hit.normal });
+        let wo = frame.to_local(-path.ray.direction);
+        let (n1, n2) = (self.n(rough.from, path.offset), self.n(rough.to, path.offset));
+        let bsdf = RoughDielectric::new(model, &n1, &n2, alpha);
+        if self.needs.light_sampling {
+            *radiance += path.throughput * self.direct_rough(&bsdf, rough, &frame, wo, path.offset, hit, sampler);
+        }
+        let (choice, u) = (sampler.uniform(), sampler.uniform_2d());
+        let Some(sample) = bsdf.sample(wo, u, choice) else { return Outcome::Ended };
+        path.throughput *= sample.weight;
+        path.pdf = sample.pdf;
+        let crosses = sample.wi.z < 0.0;
+        if crosses {
+            path.media.cross(medium, entering);
+        }
+        path.ray = Ray::leaving(hit, side(hit, crosses), frame.to_world(sample.wi));
+        Outcome::GoesOn
+    }
+
+    /// Light from one point of one light on either side, scattered towards `wo`.
+    #[inline]
+    #[allow(
+        clippy::too_many_arguments,
+        reason = "a hit, how it scatters, and a number source: no two of them belong together"
+    )]
+    fn direct_rough<const N: usize>(
+        &self,
+        bsdf: &RoughDielectric<N>,
+        rough: &Rough,
+        frame: &Frame,
+        wo: Vec3,
+        offset: u32,
+        hit: &Hit,
+        sampler: &mut Sampler,
+    ) -> Lanes<N> {
+        let (choice, u) = (sampler.uniform(), sampler.uniform_2d());
+        let Some(light) = self.scene.lights.sample(&self.scene.world, hit.point, choice, u) else {
+            return Lanes::ZERO;
+        };
+        let wi = frame.to_local(light.direction);
+        let value = bsdf.eval(wo, wi);
+        if value.pdf == 0.0 {
+            return Lanes::ZERO;
+        }
+        let crosses = wi.z < 0.0;
+        let medium = if crosses { rough.to } else { rough.from };
+        let arriving = self.arriving(&light, hit, side(hit, crosses), medium, offset);
+        value.f_cos * arriving * (power_heuristic(light.pdf, value.pdf) / light.pdf)
+    }
+}
+
+/// The side of a hit that a ray leaves to.
+#[inline]
+fn side(hit: &Hit, crosses: bool) -> Side {
+    if crosses { hit.side.opposite() } else { hit.side }
+}
