@@ -147,6 +147,23 @@ fn nearly_smooth_glass_is_invisible_in_a_furnace() {
     }
 }
 
+/// A lamp in a solid within another of the same stuff, over a grey plane in the outer one: the boundary stops shadow rays only.
+#[test]
+fn a_boundary_that_is_none_keeps_all_light() {
+    let text = "meters_per_unit = 1
+        render = { width = 8, height = 8, filter = \"box\" }
+        camera = { position = [6, 0, 6], look_at = [0, 0, 0], fov = 0.05 }
+        materials.grey.diffuse.reflectance = 0.5
+        materials.air.dielectric = { ior = 1 }
+        objects = [
+            { material = \"air\", shape.box = { size = [300, 300, 9] } },
+            { material = \"air\", shape.box = { size = [2.2, 2.2, 2.2], center = [0, 0, 3] } },
+            { material = \"grey\", shape.rectangle = { size = [100, 100] } },
+            { shape.sphere = { radius = 1, center = [0, 0, 3] }, emission = { spectrum = \"E\", luminance = 100 } },
+        ]";
+    check("nested", text, &with(8, 2048), 50.0 / 9.0);
+}
+
 /// A solid that reflects a lamp into the camera and refracts the rest, on a dark ground that catches its colours.
 fn solid(shape: &str, material: &str) -> String {
     format!(

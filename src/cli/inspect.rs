@@ -136,7 +136,10 @@ fn surface_kind(surface: &Surface) -> String {
         Surface::Diffuse { .. } => "diffuse".into(),
         Surface::Conductor { alpha: 0.0, model, .. } => format!("smooth conductor, {model} Fresnel"),
         Surface::Conductor { alpha, model, .. } => format!("conductor of roughness {alpha}, {model} Fresnel"),
-        Surface::Dielectric(Interface { model, .. }) => format!("dielectric, {model} Fresnel"),
+        Surface::Dielectric(Interface { model, alpha: 0.0, .. }) => format!("dielectric, {model} Fresnel"),
+        Surface::Dielectric(Interface { model, alpha, .. }) => {
+            format!("dielectric of roughness {alpha}, {model} Fresnel")
+        }
     }
 }
 

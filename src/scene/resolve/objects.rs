@@ -92,7 +92,8 @@ impl Resolver<'_> {
     /// Finds the convex dielectrics that nothing else reaches into: their insides are traced without asking the scene.
     pub fn find_stones(&self, world: &World, objects: &mut [Object]) {
         for (object, id) in objects.iter_mut().zip((0..).map(ShapeId)) {
-            let refracts = matches!(self.surfaces[object.surface as usize], Surface::Dielectric(_));
+            let surface = &self.surfaces[object.surface as usize];
+            let refracts = matches!(surface, Surface::Dielectric(interface) if !interface.is_rough());
             let faceted = matches!(world.shape(id), Some(Shape::Convex(_)));
             if refracts && faceted && world.stands_alone(id) {
                 object.inside = Inside::Alone;
