@@ -8,6 +8,7 @@ use spectrel::bsdf::{Bsdf, albedo::albedo, conductor::MIRROR_ALPHA};
 use spectrel::fresnel::{Fresnel, FresnelModel, exact};
 use spectrel::spectrum::Lanes;
 use statistics::Random;
+use statistics::directions::{above, unit, upper};
 
 const ALPHAS: [f32; 7] = [1e-3, 0.01, 0.05, 0.1, 0.3, 0.5, 1.0];
 const ANGLES: [f64; 5] = [0.0, 30.0, 60.0, 80.0, 89.0];
@@ -99,23 +100,6 @@ fn delta_lobes_evaluate_to_nothing() {
     let mirror = Bsdf::Conductor { fresnel: gold(), alpha: 0.99 * MIRROR_ALPHA };
     let (wo, wi) = (direction(30.0, 0.0), direction(30.0, std::f64::consts::PI));
     assert!(mirror.is_delta() && mirror.eval(wo, wi).f_cos == Lanes::ZERO && mirror.eval(wo, wi).pdf == 0.0);
-}
-
-fn upper() -> impl Strategy<Value = Vec3> {
-    let height = prop_oneof![0.0f32..1.0, Just(1.0f32), (-7.0f32..0.0).prop_map(|x| 10f32.powf(x))];
-    (height, 0.0f64..6.3).prop_map(|(z, phi)| {
-        let sin = (1.0 - z as f64 * z as f64).sqrt();
-        DVec3::new(sin * phi.cos(), sin * phi.sin(), z as f64).as_vec3()
-    })
-}
-
-/// Off the horizon by at least `height`, where a rounding of ωo does not change the answer.
-fn above(height: f32) -> impl Strategy<Value = Vec3> {
-    upper().prop_map(move |direction| Vec3::new(direction.x, direction.y, direction.z.max(height)).normalize())
-}
-
-fn unit() -> impl Strategy<Value = f32> {
-    prop_oneof![0.0f32..1.0, Just(0.0f32), Just(0.999_999_94f32)]
 }
 
 fn roughness() -> impl Strategy<Value = f32> {

@@ -7,6 +7,7 @@ use proptest::prelude::*;
 use spectrel::bsdf::{RoughDielectric, albedo, conductor::MIRROR_ALPHA};
 use spectrel::fresnel::{FresnelModel, exact};
 use spectrel::spectrum::Lanes;
+use statistics::directions::{above, unit, upper};
 use statistics::{Random, chi_squared};
 use std::f64::consts::TAU;
 
@@ -232,23 +233,6 @@ fn equal_indices_let_everything_pass_straight_on() {
             assert!((0..2).all(|lane| (kept[lane] / expected - 1.0).abs() < 0.02), "α {alpha} at {angle}°: {kept:?}");
         }
     }
-}
-
-fn upper() -> impl Strategy<Value = Vec3> {
-    let height = prop_oneof![0.0f32..1.0, Just(1.0f32), (-7.0f32..0.0).prop_map(|x| 10f32.powf(x))];
-    (height, 0.0f64..6.3).prop_map(|(z, phi)| {
-        let sin = (1.0 - z as f64 * z as f64).sqrt();
-        DVec3::new(sin * phi.cos(), sin * phi.sin(), z as f64).as_vec3()
-    })
-}
-
-/// Off the horizon by at least `height`, where a rounding of ωo does not change the answer.
-fn above(height: f32) -> impl Strategy<Value = Vec3> {
-    upper().prop_map(move |direction| Vec3::new(direction.x, direction.y, direction.z.max(height)).normalize())
-}
-
-fn unit() -> impl Strategy<Value = f32> {
-    prop_oneof![0.0f32..1.0, Just(0.0f32), Just(0.999_999_94f32)]
 }
 
 fn roughness() -> impl Strategy<Value = f32> {

@@ -2,7 +2,8 @@
 
 mod common;
 
-use common::{replicates, t_of_pairs, z_against};
+use common::lanes::{RENDERS, ball, slab as plate, t_of_lanes, with};
+use common::{replicates, z_against};
 use glam::DVec3;
 use spectrel::bsdf::albedo::dielectric;
 use spectrel::fresnel::exact;
@@ -10,11 +11,6 @@ use spectrel::scene::{Overrides, Text, resolve};
 
 /// |z| beyond which a mean is wrong: 15 degrees of freedom, one failure in ten thousand.
 const CRITICAL: f64 = 5.2;
-const RENDERS: u64 = 16;
-
-fn with(lanes: u32, samples: u32) -> Overrides {
-    Overrides { lanes: Some(lanes), samples: Some(samples), ..Overrides::default() }
-}
 
 /// The luminance of a scene must be the expected one, in cd/m², and none that is one per cent off.
 fn check(name: &str, scene: &str, overrides: &Overrides, expected: f64) {
@@ -164,51 +160,12 @@ fn a_boundary_that_is_none_keeps_all_light() {
     check("nested", text, &with(8, 2048), 50.0 / 9.0);
 }
 
-/// A solid that reflects a lamp into the camera and refracts the rest, on a dark ground that catches its colours.
-fn solid(shape: &str, material: &str) -> String {
-    format!(
-        r#"
-        meters_per_unit = 0.001
-        render = {{ width = 16, height = 16 }}
-        camera = {{ position = [0, -8, 9], look_at = [0, 0, 0.7], fov = 5.5 }}
-        environment.gradient.zenith = {{ spectrum = "D65", luminance = 3 }}
-        environment.gradient.horizon = {{ spectrum = "A", luminance = 1 }}
-        environment.gradient.nadir = {{ spectrum = "A", luminance = 1 }}
-        {material}
-        [[objects]]
-        shape.rectangle = {{ size = [4, 4], center = [0, 7, 8.4], normal = [0, -7, -8] }}
-        emission = {{ spectrum = "D65", luminance = 500 }}
-        [[objects]]
-        material = "ground"
-        shape.rectangle = {{ size = [30, 30], center = [0, 0, -0.01] }}
-        [[objects]]
-        material = "stone"
-        {shape}
-        [materials.ground]
-        diffuse.reflectance = 0.02
-        "#
-    )
-}
-
-fn ball(material: &str) -> String {
-    solid("shape.sphere = { radius = 0.8, center = [0, 0, 0.81] }", material)
-}
-
-fn cube(material: &str) -> String {
-    solid("shape.box = { size = [6, 5, 0.7] }\ntransform = { rotate = [0, 0, 30], translate = [0, 0, 0.36] }", material)
-}
-
-fn t_of_lanes(scene: impl Fn(&str) -> String, material: &str, other: &str, samples: u32) -> f64 {
-    let together = replicates(&scene(material), &with(8, samples), 0, RENDERS);
-    let alone = replicates(&scene(other), &with(1, samples), 0, RENDERS);
-    t_of_pairs(&together, &alone)
-}
-
 #[test]
 fn lanes_of_rough_sf11_agree_with_single_wavelengths() {
     for alpha in [0.05, 0.5] {
         let sf11 = format!("materials.stone = {{ dielectric = {{ ior = \"SCHOTT/sf11\", roughness = {alpha} }} }}");
-        for (name, t) in [("ball", t_of_lanes(ball, &sf11, &sf11, 256)), ("box", t_of_lanes(cube, &sf11, &sf11, 512))] {
+        for (name, t) in [("ball", t_of_lanes(ball, &sf11, &sf11, 112)), ("box", t_of_lanes(plate, &sf11, &sf11, 224))]
+        {
             println!("{name}, α {alpha}: t = {t:.1}");
             assert!(t < 4.6, "{name}, α {alpha}: t = {t:.1}");
         }
@@ -219,7 +176,7 @@ fn lanes_of_rough_sf11_agree_with_single_wavelengths() {
 fn the_lane_test_sees_an_index_one_per_cent_too_high() {
     for alpha in [0.05, 0.5] {
         let glass = |n: f64| format!("materials.stone = {{ dielectric = {{ ior = {n}, roughness = {alpha} }} }}");
-        let t = t_of_lanes(cube, &glass(1.78), &glass(1.01 * 1.78), 512);
+        let t = t_of_lanes(plate, &glass(1.78), &glass(1.01 * 1.78), 224);
         println!("α {alpha}: t = {t:.1}");
         assert!(t > 4.6, "α {alpha}: t = {t:.1}");
     }

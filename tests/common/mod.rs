@@ -2,6 +2,8 @@
 
 #![allow(dead_code, reason = "each test binary uses a part")]
 
+pub mod lanes;
+
 use spectrel::film::{Film, Window};
 use spectrel::render::{Kernel, render};
 use spectrel::scene::{Needs, Overrides, Scene, Text, resolve};

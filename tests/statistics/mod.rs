@@ -1,6 +1,8 @@
 //! Random numbers and Pearson's χ² for the tests of samplers; each test file uses what it needs.
 #![allow(dead_code, reason = "each test binary uses a part")]
 
+pub mod directions;
+
 /// SplitMix64 (G. Steele et al., 2014).
 pub struct Random(u64);
 
