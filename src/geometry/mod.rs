@@ -25,6 +25,7 @@ mod sampling;
 mod shape;
 mod sphere;
 mod tree;
+mod triangles;
 mod world;
 
 pub use bounds::Bounds;
@@ -37,4 +38,5 @@ pub use rectangle::Rectangle;
 pub use sampling::Toward;
 pub use shape::Shape;
 pub use sphere::Sphere;
+pub use triangles::Triangles;
 pub use world::World;
