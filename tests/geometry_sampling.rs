@@ -1,7 +1,7 @@
 //! Points toward a reference: directions are distributed as the densities say, and both know the solid angle.
 
 use glam::{DVec3, Vec3};
-use spectrel::geometry::{Brilliant, Convex, Disk, Ray, Rectangle, Shape, ShapeId, Sphere, World};
+use spectrel::geometry::{Brilliant, Convex, Disk, Ray, Rectangle, Shape, ShapeId, Sphere, Target, World};
 
 /// Shapes and references: near, far, edge-on, inside.
 fn cases() -> Vec<(&'static str, Shape, Vec3)> {
@@ -132,7 +132,10 @@ fn samples_agree_with_densities_and_rays() {
             }
             // No shadow on itself, and none without it.
             let shadow = Ray::free(reference, toward.direction);
-            assert!(!world.occluded(&shadow, toward.distance, Some(ShapeId(0))), "{name}");
+            assert!(
+                !world.occluded(&shadow, toward.distance, Some(Target { shape: ShapeId(0), facet: toward.facet })),
+                "{name}"
+            );
         }
         assert!(missed < 40 && odd < 40, "{name}: {missed} missed, {odd} differ");
     }

@@ -3,7 +3,8 @@
 use glam::{Affine3A, DVec3, Quat, Vec3};
 use proptest::prelude::*;
 use spectrel::geometry::{
-    Brilliant, Convex, Departure, Disk, GeometryError, Plane, Ray, Rectangle, Shape, ShapeId, Side, Sphere, World,
+    Brilliant, Convex, Departure, Disk, GeometryError, Plane, Ray, Rectangle, Shape, ShapeId, Side, Sphere, Target,
+    World,
 };
 
 /// Deterministic numbers in [0, 1): the fractional parts of multiples of irrational numbers, scrambled.
@@ -49,6 +50,7 @@ fn ray(random: &mut Random, shapes: usize) -> Ray {
         x if x < 0.5 => Departure::Free,
         x => Departure::Surface {
             shape: ShapeId((random.unit() * shapes as f32) as u32),
+            facet: 0,
             side: if x < 0.9 { Side::Outside } else { Side::Inside },
         },
     };
@@ -108,7 +110,7 @@ fn departed_shapes_are_not_met_again() {
             for _ in 0..10 {
                 let Some(hit) = world.closest(&ray, f32::INFINITY) else { break };
                 let met = world.shape(hit.shape).unwrap();
-                if let Departure::Surface { shape, side } = ray.departs {
+                if let Departure::Surface { shape, side, .. } = ray.departs {
                     assert!(hit.shape != shape || (side == Side::Inside && met.is_solid() && hit.side == Side::Inside));
                 }
                 // On, half through and half back.
@@ -231,7 +233,7 @@ fn light_under_a_stone_on_a_table_goes_through_both() {
                 assert!(exit.shape == table_id);
                 continue;
             }
-            let inside = Ray { departs: Departure::Surface { shape: stone_id, side: Side::Inside }, ..start };
+            let inside = Ray { departs: Departure::Surface { shape: stone_id, facet: 0, side: Side::Inside }, ..start };
             let exit = world.closest(&inside, f32::INFINITY).unwrap();
             assert_eq!((exit.shape, exit.side), (stone_id, Side::Inside));
             let local_exit = turn.inverse().transform_point3(exit.point);
@@ -284,7 +286,10 @@ fn lamps_that_touch_other_shapes_are_seen() {
             let shadow = Ray::leaving(&hit, Side::Outside, toward.direction);
             let ball_between =
                 lamp == ShapeId(1) && world.closest(&shadow, f32::INFINITY).is_some_and(|h| h.shape == ShapeId(2));
-            assert_eq!(world.occluded(&shadow, toward.distance, Some(lamp)), ball_between);
+            assert_eq!(
+                world.occluded(&shadow, toward.distance, Some(Target { shape: lamp, facet: toward.facet })),
+                ball_between
+            );
         }
     }
 }
@@ -457,11 +462,11 @@ proptest! {
         }
         let side = if inside { Side::Inside } else { Side::Outside };
         let world = World::new(shapes).unwrap();
-        for departs in [Departure::Free, Departure::Surface { shape: ShapeId(id), side }] {
+        for departs in [Departure::Free, Departure::Surface { shape: ShapeId(id), facet: 0, side }] {
             for direction in [direction, direction.normalize_or_zero()] {
                 let ray = Ray { origin, direction, departs };
                 let hit = world.closest(&ray, t_max);
-                world.occluded(&ray, t_max, Some(ShapeId(id)));
+                world.occluded(&ray, t_max, Some(Target { shape: ShapeId(id), facet: 0 }));
                 for shape in world.shapes() {
                     if let Some(toward) = shape.sample_toward(origin, u) {
                         prop_assert!(toward.pdf > 0.0 && toward.pdf.is_finite());

@@ -1,7 +1,7 @@
 //! `spectrel inspect`: what a scene is understood to be.
 
 use super::{SceneArgs, show};
-use crate::geometry::Shape;
+use crate::geometry::{Mesh, Shape};
 use crate::scene::describe::ExposureValue;
 use crate::scene::{Decision, Interface, MediumId, Needs, Overrides, Scene, SceneError, Surface, listed, resolve};
 use clap::Args;
@@ -126,7 +126,16 @@ fn shape_kind(shape: &Shape) -> String {
         Shape::Sphere(_) => "sphere".into(),
         Shape::Rectangle(_) => "rectangle".into(),
         Shape::Disk(_) => "disk".into(),
+        Shape::Mesh(placed) => mesh_kind(placed.mesh()),
         Shape::Convex(solid) => format!("solid of {} facets", solid.facets().len()),
+    }
+}
+
+fn mesh_kind(mesh: &Mesh) -> String {
+    let triangles = mesh.triangles().indices.len();
+    match mesh.surroundings().open_edges {
+        0 => format!("closed mesh of {triangles} triangles"),
+        open => format!("mesh of {triangles} triangles, {open} open edges"),
     }
 }
 

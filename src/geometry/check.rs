@@ -31,6 +31,7 @@ pub(super) fn length(what: &'static str, value: f64) -> Result<(), GeometryError
 
 /// A transform in double precision. (Its own products are not used: they are vector code that may round differently
 /// between processors.)
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Transform {
     pub matrix: DMat3,
     pub translation: DVec3,
@@ -52,6 +53,28 @@ impl Transform {
 
     pub fn vector(&self, v: DVec3) -> DVec3 {
         self.matrix.x_axis * v.x + self.matrix.y_axis * v.y + self.matrix.z_axis * v.z
+    }
+
+    /// This map after another one.
+    pub fn after(&self, first: &Self) -> Self {
+        let [x, y, z] = [first.matrix.x_axis, first.matrix.y_axis, first.matrix.z_axis].map(|axis| self.vector(axis));
+        Self { matrix: DMat3::from_cols(x, y, z), translation: self.point(first.translation) }
+    }
+
+    /// The way back; none if the map flattens space.
+    pub fn inverse(&self) -> Option<Self> {
+        let (x, y, z) = (self.matrix.x_axis, self.matrix.y_axis, self.matrix.z_axis);
+        let rows = [y.cross(z), z.cross(x), x.cross(y)].map(|row| row / self.determinant());
+        let matrix = DMat3::from_cols(rows[0], rows[1], rows[2]).transpose();
+        let mut back = Self { matrix, translation: DVec3::ZERO };
+        back.translation = -back.vector(self.translation);
+        (back.matrix.is_finite() && back.translation.is_finite()).then_some(back)
+    }
+
+    /// A bound on how many times longer a vector becomes: the Frobenius norm.
+    pub fn stretch(&self) -> f64 {
+        let axes = [self.matrix.x_axis, self.matrix.y_axis, self.matrix.z_axis];
+        axes.iter().map(|axis| axis.length_squared()).sum::<f64>().sqrt()
     }
 
     pub fn determinant(&self) -> f64 {

@@ -1,6 +1,6 @@
 //! Whether one shape reaches into another, or only touches it.
 //!
-//! All shapes here are convex, and two convex sets do not share inner points just when some direction separates them. Likely
+//! All shapes here are convex, and meshes are made of triangles, which are; two convex sets do not share inner points just when some direction separates them. Likely
 //! directions are tried first: facet normals, the line of centres. Then a few steps of Gilbert's algorithm (E. G. Gilbert, SIAM J.
 //! Control 4, 1966) look for more. If none is found the answer is "may".
 
@@ -11,37 +11,48 @@ use super::{Shape, World};
 /// Steps of Gilbert's algorithm; each one costs two support points.
 const STEPS: usize = 64;
 
+/// A convex body: a shape of this room that is convex, or a triangle of a mesh.
+#[derive(Clone, Copy)]
+enum Body<'a> {
+    Shape(&'a Shape),
+    Triangle(&'a [DVec3; 3]),
+}
+
 impl Shape {
     /// Whether the surface of `other` may lie inside this solid. False only if it surely does not: the two are apart, touch
     /// from outside (a stone on a table, facets in common), or this solid lies wholly within `other`. False for flat
-    /// shapes, which have no inside.
+    /// shapes, which have no inside; always true for meshes that are closed.
     ///
     /// If it is false for all other shapes of a world, light inside this solid can be traced with the solid alone.
     pub fn may_touch_inside(&self, other: &Shape) -> bool {
-        self.is_solid() && !self.apart(other) && !self.within(other)
+        match (self, other) {
+            (Shape::Mesh(_), _) => self.is_solid(),
+            (_, Shape::Mesh(mesh)) => {
+                let reaches = |triangle: &[DVec3; 3]| !Body::Shape(self).apart(&Body::Triangle(triangle));
+                self.is_solid() && mesh.any_triangle_near(&self.bounds(), reaches)
+            }
+            _ => self.is_solid() && !Body::Shape(self).apart(&Body::Shape(other)) && !Body::Shape(self).within(other),
+        }
     }
+}
 
+impl Body<'_> {
     /// Whether some direction separates the two, up to single precision.
-    fn apart(&self, other: &Shape) -> bool {
+    fn apart(&self, other: &Body) -> bool {
         // Shapes are stored in single precision, and so exact to that; contact is meant to be contact.
-        let size = |s: &Shape| {
-            let b = s.bounds();
-            b.min.abs().max(b.max.abs()).max_element() as f64
-        };
-        let tolerance = 4.0 * f32::EPSILON as f64 * (size(self) + size(other));
+        let tolerance = 4.0 * f32::EPSILON as f64 * (self.extent() + other.extent());
         let separates = |axis: DVec3| {
             let length = axis.length();
             length > 0.0 && self.reach(axis) + other.reach(-axis) <= tolerance * length
         };
-        let center = |s: &Shape| s.bounds().center().as_dvec3();
-        let mut axes = vec![DVec3::X, DVec3::Y, DVec3::Z, center(other) - center(self)];
+        let mut axes = vec![DVec3::X, DVec3::Y, DVec3::Z, other.center() - self.center()];
         axes.extend(self.normals());
         axes.extend(other.normals());
         if axes.iter().any(|&axis| separates(axis) || separates(-axis)) {
             return true;
         }
         // The point of {b − a} nearest to zero gives the best direction.
-        let mut nearest = center(other) - center(self);
+        let mut nearest = other.center() - self.center();
         for _ in 0..STEPS {
             if separates(nearest) {
                 return true;
@@ -60,7 +71,7 @@ impl Shape {
     /// Whether this solid surely lies within the other, its surface included up to single precision.
     fn within(&self, other: &Shape) -> bool {
         match other {
-            Shape::Rectangle(_) | Shape::Disk(_) => false,
+            Shape::Rectangle(_) | Shape::Disk(_) | Shape::Mesh(_) => false,
             Shape::Convex(outer) => {
                 let center = outer.center().as_dvec3();
                 let slack = 4.0 * f32::EPSILON as f64 * (center.abs().max_element() + outer.radius() as f64);
@@ -73,28 +84,50 @@ impl Shape {
             Shape::Sphere(outer) => {
                 let (center, radius) = (outer.center().as_dvec3(), outer.radius() as f64);
                 let far = match self {
-                    Shape::Sphere(s) => (s.center().as_dvec3() - center).length() + s.radius() as f64,
-                    Shape::Convex(s) => {
+                    Body::Shape(Shape::Sphere(s)) => (s.center().as_dvec3() - center).length() + s.radius() as f64,
+                    Body::Shape(Shape::Convex(s)) => {
                         s.vertices().iter().map(|v| (v.as_dvec3() - center).length()).fold(0.0, f64::max)
                     }
-                    Shape::Rectangle(_) | Shape::Disk(_) => return false,
+                    _ => return false,
                 };
                 far <= radius + 4.0 * f32::EPSILON as f64 * (center.abs().max_element() + radius)
             }
         }
     }
 
-    /// Largest axis·p over the points of the shape.
+    /// Largest coordinate of its points.
+    fn extent(&self) -> f64 {
+        match self {
+            Body::Shape(s) => s.bounds().min.abs().max(s.bounds().max.abs()).max_element() as f64,
+            Body::Triangle(corners) => corners.iter().map(|c| c.abs().max_element()).fold(0.0, f64::max),
+        }
+    }
+
+    fn center(&self) -> DVec3 {
+        match self {
+            Body::Shape(s) => s.bounds().center().as_dvec3(),
+            Body::Triangle([a, b, c]) => (*a + *b + *c) / 3.0,
+        }
+    }
+
+    /// Largest axis·p over its points.
     fn reach(&self, axis: DVec3) -> f64 {
         match self {
-            Shape::Sphere(s) => axis.dot(s.center().as_dvec3()) + s.radius() as f64 * axis.length(),
+            Body::Shape(Shape::Sphere(s)) => axis.dot(s.center().as_dvec3()) + s.radius() as f64 * axis.length(),
             _ => axis.dot(self.farthest(axis)),
         }
     }
 
-    /// A point of the shape that lies farthest along the axis.
+    /// A point of it that lies farthest along the axis; of a mesh, of its box.
     fn farthest(&self, axis: DVec3) -> DVec3 {
-        match self {
+        let extreme = |points: &mut dyn Iterator<Item = DVec3>| {
+            points.max_by(|a, b| axis.dot(*a).total_cmp(&axis.dot(*b))).unwrap_or(self.center())
+        };
+        let shape = match self {
+            Body::Triangle(corners) => return extreme(&mut corners.iter().copied()),
+            Body::Shape(shape) => shape,
+        };
+        match shape {
             Shape::Sphere(s) => s.center().as_dvec3() + axis.normalize_or_zero() * s.radius() as f64,
             Shape::Rectangle(s) => {
                 let [c, u, v] = [s.flat.center, s.flat.u, s.flat.v].map(|p| p.as_dvec3());
@@ -106,21 +139,18 @@ impl Shape {
                 let length = (a * a + b * b).sqrt();
                 if length > 0.0 { c + (u * a + v * b) / length } else { c }
             }
-            Shape::Convex(s) => s
-                .vertices()
-                .iter()
-                .map(|v| v.as_dvec3())
-                .max_by(|a, b| axis.dot(*a).total_cmp(&axis.dot(*b)))
-                .unwrap_or(s.center().as_dvec3()),
+            Shape::Convex(s) => extreme(&mut s.vertices().iter().map(|v| v.as_dvec3())),
+            Shape::Mesh(s) => extreme(&mut s.bounds().corners().into_iter().map(|v| v.as_dvec3())),
         }
     }
 
     fn normals(&self) -> Vec<DVec3> {
         match self {
-            Shape::Sphere(_) => Vec::new(),
-            Shape::Rectangle(s) => vec![s.flat.normal.as_dvec3()],
-            Shape::Disk(s) => vec![s.flat.normal.as_dvec3()],
-            Shape::Convex(s) => s.facets().iter().map(|f| f.normal.as_dvec3()).collect(),
+            Body::Triangle([a, b, c]) => vec![(*b - *a).cross(*c - *a)],
+            Body::Shape(Shape::Rectangle(s)) => vec![s.flat.normal.as_dvec3()],
+            Body::Shape(Shape::Disk(s)) => vec![s.flat.normal.as_dvec3()],
+            Body::Shape(Shape::Convex(s)) => s.facets().iter().map(|f| f.normal.as_dvec3()).collect(),
+            Body::Shape(Shape::Sphere(_) | Shape::Mesh(_)) => Vec::new(),
         }
     }
 }

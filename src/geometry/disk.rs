@@ -3,7 +3,7 @@
 use glam::{Affine3A, Vec3};
 
 use super::flat::Flat;
-use super::ray::{Crossing, Probe};
+use super::ray::{Crossing, Probe, Surface};
 use super::{Bounds, GeometryError};
 
 /// An ellipse about its centre: centre + a u + b v with a² + b² ≤ 1; cross(u, v) points to the front.
@@ -67,8 +67,8 @@ impl Disk {
     }
 
     /// The coordinates are those of the parallelogram around the ellipse.
-    pub(super) fn surface(&self, near: Vec3) -> (Vec3, Vec3) {
+    pub(super) fn surface(&self, near: Vec3) -> Surface {
         let (point, _, _) = self.flat.project(near);
-        (point, self.flat.normal)
+        Surface::plain(point, self.flat.normal)
     }
 }

@@ -36,6 +36,12 @@ pub enum GeometryError {
     #[error("{name} is {value}: {wants}")]
     Proportion { name: &'static str, value: f64, wants: String },
 
+    #[error("the mesh has no triangle")]
+    NoTriangles,
+
+    #[error("a triangle of the mesh names corner {index}, but it has {count} (the first one is 0)")]
+    NoSuchCorner { index: u32, count: usize },
+
     #[error("{count} shapes are more than the {max} a world can hold")]
     TooManyShapes { count: usize, max: usize },
 }

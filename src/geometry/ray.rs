@@ -35,8 +35,15 @@ pub enum Departure {
     /// In the middle of nowhere: a camera.
     Free,
     /// On the surface of `shape`, into its `side`: `Outside` for a reflection off a solid and for light that leaves it,
-    /// `Inside` for light that enters it and for a reflection within.
-    Surface { shape: ShapeId, side: Side },
+    /// `Inside` for light that enters it and for a reflection within. `facet` as in [`Hit::facet`].
+    Surface { shape: ShapeId, facet: u32, side: Side },
+}
+
+/// A point on a light that a shadow ray goes to: a facet of a shape, as in [`Hit::facet`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Target {
+    pub shape: ShapeId,
+    pub facet: u32,
 }
 
 /// A ray; `direction` is a unit vector, distances along it are scene units.
@@ -55,7 +62,7 @@ impl Ray {
 
     /// A ray that leaves the point of a hit, into the given side of the surface.
     pub fn leaving(hit: &Hit, side: Side, direction: Vec3) -> Self {
-        Self { origin: hit.point, direction, departs: Departure::Surface { shape: hit.shape, side } }
+        Self { origin: hit.point, direction, departs: Departure::Surface { shape: hit.shape, facet: hit.facet, side } }
     }
 }
 
@@ -67,12 +74,30 @@ pub struct Hit {
     pub shape: ShapeId,
     /// The side on which the ray arrives: `Inside` if it was within the solid, or comes to the back of a flat shape.
     pub side: Side,
-    /// Facet of a convex solid, in the order of [`Convex::facets`](super::Convex::facets); 0 for other shapes.
+    /// Facet of a convex solid, in the order of [`Convex::facets`](super::Convex::facets), or triangle of a mesh; 0 for
+    /// other shapes.
     pub facet: u32,
     /// The point, put back onto the surface: good to a few roundings of its coordinates however far the ray came.
     pub point: Vec3,
     /// Geometric unit normal: out of a solid, to the front of a flat shape, whichever side the ray arrives on.
     pub normal: Vec3,
+    /// Unit normal of the smooth surface that a mesh stands for, on the same side as `normal`; `normal` itself elsewhere.
+    pub shading: Vec3,
+}
+
+/// What a shape tells of a point on it, as in [`Hit`].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Surface {
+    pub point: Vec3,
+    pub normal: Vec3,
+    pub shading: Vec3,
+}
+
+impl Surface {
+    /// A point of a shape that is as smooth as it says.
+    pub fn plain(point: Vec3, normal: Vec3) -> Self {
+        Self { point, normal, shading: normal }
+    }
 }
 
 /// A ray with what the shapes need to know about how exact its origin is.

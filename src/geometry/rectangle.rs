@@ -3,7 +3,7 @@
 use glam::{Affine3A, Vec3};
 
 use super::flat::Flat;
-use super::ray::{Crossing, Probe};
+use super::ray::{Crossing, Probe, Surface};
 use super::{Bounds, GeometryError};
 
 /// A parallelogram about its centre. The corners are centre ± u/2 ± v/2; cross(u, v) points to the front.
@@ -59,8 +59,8 @@ impl Rectangle {
         within.then_some(plane.crossing)
     }
 
-    pub(super) fn surface(&self, near: Vec3) -> (Vec3, Vec3) {
+    pub(super) fn surface(&self, near: Vec3) -> Surface {
         let (point, _, _) = self.flat.project(near);
-        (point, self.flat.normal)
+        Surface::plain(point, self.flat.normal)
     }
 }

@@ -1,9 +1,18 @@
 //! The shapes there are, and what all of them answer.
 
-use glam::{Affine3A, Vec3};
+use glam::{Affine3A, Vec2, Vec3};
 
-use super::ray::{Crossing, Probe};
-use super::{Bounds, Convex, Disk, GeometryError, Rectangle, Sphere};
+use super::ray::{Crossing, Probe, Side, Surface};
+use super::{Bounds, Convex, Disk, GeometryError, Placed, Rectangle, Sphere};
+
+/// A ray that leaves a shape's surface.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Leaving {
+    pub origin: Vec3,
+    pub direction: Vec3,
+    pub facet: u32,
+    pub side: Side,
+}
 
 /// A shape in world space. A box is a [`Convex`] of six half-spaces.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,6 +21,7 @@ pub enum Shape {
     Rectangle(Rectangle),
     Disk(Disk),
     Convex(Box<Convex>),
+    Mesh(Placed),
 }
 
 macro_rules! each {
@@ -21,6 +31,7 @@ macro_rules! each {
             Shape::Rectangle($s) => $e,
             Shape::Disk($s) => $e,
             Shape::Convex($s) => $e,
+            Shape::Mesh($s) => $e,
         }
     };
 }
@@ -28,7 +39,11 @@ macro_rules! each {
 impl Shape {
     /// Whether it encloses a volume.
     pub fn is_solid(&self) -> bool {
-        matches!(self, Shape::Sphere(_) | Shape::Convex(_))
+        match self {
+            Shape::Sphere(_) | Shape::Convex(_) => true,
+            Shape::Mesh(s) => s.is_closed(),
+            Shape::Rectangle(_) | Shape::Disk(_) => false,
+        }
     }
 
     pub fn bounds(&self) -> Bounds {
@@ -47,6 +62,7 @@ impl Shape {
             Shape::Rectangle(s) => s.transformed(affine)?.into(),
             Shape::Disk(s) => s.transformed(affine)?.into(),
             Shape::Convex(s) => s.transformed(affine)?.into(),
+            Shape::Mesh(s) => s.transformed(affine)?.into(),
         })
     }
 
@@ -55,33 +71,85 @@ impl Shape {
         match self {
             Shape::Sphere(s) => s.contains(point),
             Shape::Convex(s) => s.contains(point),
+            Shape::Mesh(s) => s.contains(point),
             Shape::Rectangle(_) | Shape::Disk(_) => false,
         }
     }
 
-    /// A ray that comes from elsewhere.
+    /// A ray that comes from elsewhere. What lies beyond `limit` need not be found.
     #[inline]
-    pub(super) fn meet(&self, probe: &Probe) -> Option<Crossing> {
-        each!(self, s => s.meet(probe))
-    }
-
-    /// The exit of a ray that sets off from the surface into the inside; flat shapes have none.
-    #[inline]
-    pub(super) fn exit(&self, origin: Vec3, direction: Vec3) -> Option<Crossing> {
+    pub(super) fn meet(&self, probe: &Probe, limit: f32) -> Option<Crossing> {
         match self {
-            Shape::Sphere(s) => Some(s.exit(origin, direction)),
-            Shape::Convex(s) => Some(s.exit(origin, direction)),
-            Shape::Rectangle(_) | Shape::Disk(_) => None,
+            Shape::Sphere(s) => s.meet(probe),
+            Shape::Rectangle(s) => s.meet(probe),
+            Shape::Disk(s) => s.meet(probe),
+            Shape::Convex(s) => s.meet(probe),
+            Shape::Mesh(s) => s.meet(probe, limit),
         }
     }
 
-    /// Point, normal and coordinates where a ray arrives.
-    pub(super) fn surface(&self, near: Vec3, facet: u32) -> (Vec3, Vec3) {
+    /// Whether the shape is surely met before `limit`; of a mesh the facet `but` is not asked.
+    #[inline]
+    pub(super) fn hides(&self, probe: &Probe, limit: f32, but: Option<u32>) -> bool {
+        match (self, but) {
+            (Shape::Mesh(s), _) => s.hides(probe, limit, but),
+            (_, Some(_)) => false,
+            (_, None) => self.meet(probe, limit).is_some_and(|crossing| crossing.t + crossing.slack < limit),
+        }
+    }
+
+    /// What a ray that leaves the shape meets of it again: from inside of a solid its exit, on a mesh anything. Flat shapes, and
+    /// convex ones from outside, are not met again.
+    #[inline]
+    pub(super) fn again(&self, leaving: &Leaving, limit: f32) -> Option<Crossing> {
+        let &Leaving { origin, direction, side, .. } = leaving;
+        match (self, side) {
+            (Shape::Sphere(s), Side::Inside) => Some(s.exit(origin, direction)),
+            (Shape::Convex(s), Side::Inside) => Some(s.exit(origin, direction)),
+            (Shape::Mesh(s), _) => s.again(leaving, limit),
+            _ => None,
+        }
+    }
+
+    /// Whether a shape is surely in the way of a ray that leaves it; of a mesh the facet `but` is not asked.
+    #[inline]
+    pub(super) fn hides_again(&self, leaving: &Leaving, limit: f32, but: Option<u32>) -> bool {
+        match (self, but) {
+            (Shape::Mesh(s), _) => s.hides_again(leaving, limit, but),
+            (_, Some(_)) => false,
+            (_, None) => self.again(leaving, limit).is_some_and(|crossing| crossing.t + crossing.slack < limit),
+        }
+    }
+
+    /// Point and normals where a ray arrives.
+    pub(super) fn surface(&self, near: Vec3, facet: u32) -> Surface {
         match self {
             Shape::Sphere(s) => s.surface(near),
             Shape::Rectangle(s) => s.surface(near),
             Shape::Disk(s) => s.surface(near),
             Shape::Convex(s) => s.surface(near, facet),
+            Shape::Mesh(s) => s.surface(near, facet),
+        }
+    }
+
+    /// Whether its points have texture coordinates.
+    pub fn has_uv(&self) -> bool {
+        match self {
+            Shape::Sphere(_) | Shape::Rectangle(_) | Shape::Disk(_) => true,
+            Shape::Convex(_) => false,
+            Shape::Mesh(s) => s.mesh().has_uv(),
+        }
+    }
+
+    /// Texture coordinates, v upwards: of a sphere azimuth and height by angle, each over its range; of flat shapes the square
+    /// around them.
+    pub(super) fn uv(&self, point: Vec3, facet: u32) -> Option<Vec2> {
+        match self {
+            Shape::Sphere(s) => Some(s.uv(point)),
+            Shape::Rectangle(s) => Some(s.flat.uv(point)),
+            Shape::Disk(s) => Some(s.flat.uv(point)),
+            Shape::Convex(_) => None,
+            Shape::Mesh(s) => s.uv(point, facet),
         }
     }
 
@@ -93,6 +161,7 @@ impl Shape {
             Shape::Rectangle(s) => s.flat.u.length() + s.flat.v.length(),
             Shape::Disk(s) => s.flat.u.length() + s.flat.v.length(),
             Shape::Convex(s) => s.radius(),
+            Shape::Mesh(s) => s.extent(),
         }
     }
 }
@@ -118,5 +187,11 @@ impl From<Disk> for Shape {
 impl From<Convex> for Shape {
     fn from(convex: Convex) -> Self {
         Shape::Convex(Box::new(convex))
+    }
+}
+
+impl From<Placed> for Shape {
+    fn from(placed: Placed) -> Self {
+        Shape::Mesh(placed)
     }
 }

@@ -5,7 +5,7 @@
 //! epsilon. Here boxes are padded, the far distance is widened by 4 ε (T. Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013)
 //! and the error of the ray's origin widens every box, so nothing that its shape would report is missed.
 //!
-//! The tree knows only boxes and numbers. What a number means, a shape today or a range of triangles, its user decides.
+//! The tree knows only boxes and numbers. What a number means, a shape or a block of triangles, its user decides.
 
 use std::time::Duration;
 
@@ -87,17 +87,39 @@ impl obvhs::Boundable for Item {
 }
 
 impl Tree {
-    /// A tree over boxes; items are their indices.
+    /// A tree over boxes; items are their indices. One item a leaf: testing a shape costs more than testing its box.
     pub fn new(boxes: &[Bounds]) -> Self {
         let padded: Vec<Bounds> = boxes.iter().map(Bounds::padded).collect();
         if padded.len() <= WIDTH {
             return Self::single(&padded);
         }
+        Self::build(&padded, 1)
+    }
+
+    /// A tree over boxes whose leaves hold up to `size` of them. Items are leaves; `group` is told the boxes of each in
+    /// the order of their numbers.
+    pub fn grouped(boxes: &[Bounds], size: u32, mut group: impl FnMut(&[u32])) -> Self {
+        let padded: Vec<Bounds> = boxes.iter().map(Bounds::padded).collect();
+        let mut tree = Self::build(&padded, size);
+        let mut leaves = 0;
+        for child in tree.nodes.iter_mut().flat_map(|node| &mut node.children).filter(|child| child.count > 0) {
+            if child.first == NO_ITEM {
+                continue;
+            }
+            let first = child.first as usize;
+            group(&tree.order[first..first + child.count as usize]);
+            *child = Child { first: leaves, count: 1 };
+            leaves += 1;
+        }
+        tree.order = (0..leaves).collect();
+        tree
+    }
+
+    fn build(padded: &[Bounds], leaf: u32) -> Self {
         let items: Vec<Item> = padded.iter().map(|b| Item(Aabb::new(Vec3A::from(b.min), Vec3A::from(b.max)))).collect();
-        // One item a leaf: testing a shape costs more than testing its box. (Triangles will want up to four.)
         let params = BvhBuildParams {
             pre_split: false,
-            max_prims_per_leaf: 1,
+            max_prims_per_leaf: leaf,
             ..if items.len() < 10_000 { BvhBuildParams::very_slow_build() } else { BvhBuildParams::medium_build() }
         };
         let binary = build_bvh2(&items, params, &mut Duration::default());
@@ -113,6 +135,30 @@ impl Tree {
             node.set(slot, b.min, b.max, Child { first: slot as u32, count: 1 });
         }
         Self { nodes: vec![node], order: (0..boxes.len() as u32).collect(), stack: WIDTH }
+    }
+
+    /// The items whose boxes meet a box.
+    pub fn near(&self, bounds: &Bounds) -> Vec<u32> {
+        let (mut found, mut work) = (Vec::new(), vec![0]);
+        while let Some(node) = work.pop() {
+            let Node { planes, children } = &self.nodes[node];
+            for (slot, child) in children.iter().enumerate() {
+                let corner = |end: usize| Vec3::new(planes[0][end][slot], planes[1][end][slot], planes[2][end][slot]);
+                if child.first == NO_ITEM || !bounds.meets(&Bounds { min: corner(0), max: corner(1) }) {
+                    continue;
+                }
+                let first = child.first as usize;
+                match child.count {
+                    0 => work.push(first),
+                    count => found.extend(&self.order[first..first + count as usize]),
+                }
+            }
+        }
+        found
+    }
+
+    pub fn memory_bytes(&self) -> usize {
+        size_of_val(&self.nodes[..]) + size_of_val(&self.order[..])
     }
 
     /// Nodes of eight from nodes of two: the child with the largest surface is opened until there are eight. Returns the

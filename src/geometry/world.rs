@@ -1,6 +1,9 @@
 //! All shapes of a scene, and the two questions that are asked of them.
 
-use super::ray::{Crossing, Departure, Hit, Probe, Ray, ShapeId, Side, sum_abs};
+use glam::Vec2;
+
+use super::ray::{Crossing, Departure, Hit, Probe, Ray, ShapeId, Side, Surface, Target, sum_abs};
+use super::shape::Leaving;
 use super::tree::{BoxRay, Tree};
 use super::{Bounds, GeometryError, Shape};
 
@@ -57,18 +60,19 @@ impl World {
         let mut limit = t_max.min(f32::MAX);
         let mut best: Option<Nearest> = None;
         let departed = departed(ray);
-        if let Some((id, exit)) = self.exit(ray)
-            && exit.t <= limit
+        if let Some((shape, leaving)) = leaving(ray)
+            && let Some(again) = self.shape(shape).and_then(|own| own.again(&leaving, limit))
+            && again.t <= limit
         {
-            best = Some(Nearest { crossing: exit, shape: id });
+            best = Some(Nearest { crossing: again, shape: shape.0 });
             // Strictly less: what touches the solid at its exit comes after it.
-            limit = exit.t - exit.slack;
+            limit = if again.side == Side::Inside { again.t - again.slack } else { again.t };
         }
         self.visit(ray, &probe, limit, |shape, limit| {
             if shape == departed {
                 return limit;
             }
-            let Some(crossing) = self.shapes[shape as usize].meet(&probe) else { return limit };
+            let Some(crossing) = self.shapes[shape as usize].meet(&probe, limit) else { return limit };
             if !(crossing.t <= limit) {
                 return limit;
             }
@@ -87,18 +91,18 @@ impl World {
 
     /// Whether anything lies between the ray's origin and the point `t_max` away.
     ///
-    /// For a shadow ray to a point sampled on a shape, give the shape as `target`: it never hides its own point, since
-    /// [`Shape::sample_toward`] only gives points that the convex shape itself does not hide. Surfaces that may touch the
-    /// end point, to within rounding, do not hide it either; so `t_max` is the distance and needs no shortening.
-    pub fn occluded(&self, ray: &Ray, t_max: f32, target: Option<ShapeId>) -> bool {
+    /// For a shadow ray to a point sampled on a shape, give its facet as `target`: a convex shape never hides its own point,
+    /// since [`Shape::sample_toward`] only gives points that it does not hide, and a facet of a mesh does not hide itself.
+    /// Surfaces that may touch the end point, to within rounding, do not hide it either; so `t_max` is the distance and needs
+    /// no shortening.
+    pub fn occluded(&self, ray: &Ray, t_max: f32, target: Option<Target>) -> bool {
         let limit = t_max.min(f32::MAX);
         if !(limit > 0.0) {
             return false;
         }
-        let target = target.map_or(u32::MAX, |id| id.0);
-        if let Some((id, exit)) = self.exit(ray)
-            && id != target
-            && exit.t + exit.slack < limit
+        let but = |shape: u32| target.filter(|target| target.shape.0 == shape).map(|target| target.facet);
+        if let Some((shape, leaving)) = leaving(ray)
+            && self.shape(shape).is_some_and(|own| own.hides_again(&leaving, limit, but(shape.0)))
         {
             return true;
         }
@@ -106,18 +110,15 @@ impl World {
         let departed = departed(ray);
         let mut hidden = false;
         self.visit(ray, &probe, limit, |shape, limit| {
-            if shape == departed || shape == target {
-                return limit;
-            }
-            match self.shapes[shape as usize].meet(&probe) {
-                Some(crossing) if crossing.t + crossing.slack < limit => {
-                    hidden = true;
-                    -1.0
-                }
-                _ => limit,
-            }
+            hidden |= shape != departed && self.shapes[shape as usize].hides(&probe, limit, but(shape));
+            if hidden { -1.0 } else { limit }
         });
         hidden
+    }
+
+    /// Texture coordinates of a hit, v upwards; none where the shape has none.
+    pub fn uv(&self, hit: &Hit) -> Option<Vec2> {
+        self.shape(hit.shape)?.uv(hit.point, hit.facet)
     }
 
     /// Shows candidates to `each`, which takes and returns the farthest distance of interest.
@@ -137,43 +138,40 @@ impl World {
         }
     }
 
-    /// The exit of the solid that the ray sets off into, if it does.
-    #[inline]
-    fn exit(&self, ray: &Ray) -> Option<(u32, Crossing)> {
-        match ray.departs {
-            Departure::Surface { shape, side: Side::Inside } => {
-                let exit = self.shape(shape)?.exit(ray.origin, ray.direction)?;
-                Some((shape.0, exit))
-            }
-            _ => None,
-        }
-    }
-
-    /// A hit point is good to a few roundings of its coordinates and of the size of its shape.
+    /// A hit point is good to a few roundings of its coordinates and of the size of its shape; a free one is what it says.
     #[inline]
     fn probe(&self, ray: &Ray) -> Probe {
-        let shape = match ray.departs {
-            Departure::Free => None,
-            Departure::Surface { shape, side } => self.shape(shape).map(|s| (s, side)),
+        let Ray { origin, direction, departs } = *ray;
+        let (origin_error, leaves_solid) = match departs {
+            Departure::Free => (0.0, false),
+            Departure::Surface { shape, side, .. } => {
+                let (extent, solid) = self.shape(shape).map_or((0.0, false), |s| (s.extent(), s.is_solid()));
+                (4.0 * f32::EPSILON * (sum_abs(origin) + extent), solid && side == Side::Outside)
+            }
         };
-        let extent = shape.map_or(0.0, |(s, _)| s.extent());
-        Probe {
-            origin: ray.origin,
-            direction: ray.direction,
-            origin_error: 4.0 * f32::EPSILON * (sum_abs(ray.origin) + extent),
-            leaves_solid: shape.is_some_and(|(s, side)| s.is_solid() && side == Side::Outside),
-        }
+        Probe { origin, direction, origin_error, leaves_solid }
     }
 
     fn hit(&self, ray: &Ray, nearest: Nearest) -> Hit {
         let Crossing { t, side, facet, .. } = nearest.crossing;
         let near = ray.origin + ray.direction * t;
-        let (point, normal) = self.shapes[nearest.shape as usize].surface(near, facet);
-        Hit { t, shape: ShapeId(nearest.shape), side, facet, point, normal }
+        let Surface { point, normal, shading } = self.shapes[nearest.shape as usize].surface(near, facet);
+        Hit { t, shape: ShapeId(nearest.shape), side, facet, point, normal, shading }
     }
 }
 
-/// The shape that cannot be met again, if any: the one departed from. (Its exit is looked for on its own.)
+/// The shape that the ray leaves, and how.
+#[inline]
+fn leaving(ray: &Ray) -> Option<(ShapeId, Leaving)> {
+    match ray.departs {
+        Departure::Free => None,
+        Departure::Surface { shape, facet, side } => {
+            Some((shape, Leaving { origin: ray.origin, direction: ray.direction, facet, side }))
+        }
+    }
+}
+
+/// The shape that the search leaves out, if any: the one departed from. (What is met of it again is looked for on its own.)
 #[inline]
 fn departed(ray: &Ray) -> u32 {
     match ray.departs {

@@ -7,7 +7,7 @@ mod sun;
 
 pub use sun::Sun;
 
-use crate::geometry::{Hit, ShapeId, Side, World};
+use crate::geometry::{Hit, ShapeId, Side, Target, World};
 use crate::spectrum::{Lanes, SpectrumId, Tables};
 use glam::Vec3;
 
@@ -81,7 +81,8 @@ pub struct LightSample {
     pub direction: Vec3,
     /// Infinite for a sun.
     pub distance: f32,
-    pub shape: Option<ShapeId>,
+    /// None for a sun.
+    pub target: Option<Target>,
     pub radiance: SpectrumId,
     /// Per steradian, with the choice of the light.
     pub pdf: f32,
@@ -121,7 +122,7 @@ impl Lights {
             Source::Sun(sun) => Some(LightSample {
                 direction: sun.sample(u),
                 distance: f32::INFINITY,
-                shape: None,
+                target: None,
                 radiance,
                 pdf: sun.pdf() * probability,
             }),
@@ -131,7 +132,7 @@ impl Lights {
                 (front || two_sided).then_some(LightSample {
                     direction: toward.direction,
                     distance: toward.distance,
-                    shape: Some(id),
+                    target: Some(Target { shape: id, facet: toward.facet }),
                     radiance,
                     pdf: toward.pdf * probability,
                 })

@@ -97,7 +97,7 @@ impl Kernel<'_> {
     ) -> Outcome {
         let Some(exits) = self.trace_stone(entry, path, sampler) else { return Outcome::Ended };
         path.media.leave(entry.interface.medium);
-        let departs = Departure::Surface { shape: entry.hit.shape, side: Side::Outside };
+        let departs = Departure::Surface { shape: entry.hit.shape, facet: 0, side: Side::Outside };
         let ray = |lane| Ray { origin: exits.origins.get(lane), direction: exits.directions.get(lane), departs };
         if N == 1 {
             path.ray = ray(0);

@@ -78,7 +78,7 @@ impl Kernel<'_> {
         offset: u32,
     ) -> Lanes<N> {
         let shadow = Ray::leaving(hit, side, light.direction);
-        if self.scene.world.occluded(&shadow, light.distance, light.shape) {
+        if self.scene.world.occluded(&shadow, light.distance, light.target) {
             return Lanes::ZERO;
         }
         self.tables.get::<N>(light.radiance, offset)

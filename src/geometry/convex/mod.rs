@@ -13,6 +13,7 @@ use glam::{Affine3A, DVec3, Vec3};
 pub use exit::{Exits, Points};
 pub use polyhedron::Plane;
 
+use super::ray::Surface;
 use super::{Bounds, GeometryError, check};
 use exit::{BLOCK, Block, Spread};
 use polyhedron::Polyhedron;
@@ -208,7 +209,7 @@ impl Convex {
     }
 
     /// Coordinates: scene units along two axes in the facet, from the foot of the solid's centre.
-    pub(super) fn surface(&self, near: Vec3, facet: u32) -> (Vec3, Vec3) {
-        (self.project(near, facet), self.normal(facet))
+    pub(super) fn surface(&self, near: Vec3, facet: u32) -> Surface {
+        Surface::plain(self.project(near, facet), self.normal(facet))
     }
 }

@@ -1,10 +1,11 @@
 //! Points on shapes as seen from a reference point, for light that comes from them.
 //!
 //! Every sampler is paired with its density: [`Shape::pdf_toward`] gives for a direction exactly what
-//! [`Shape::sample_toward`] would have said, both in 1/sr at the reference. Points that the shape itself hides from the
+//! [`Shape::sample_toward`] would have said, both in 1/sr at the reference. Points that a convex shape itself hides from the
 //! reference are never drawn.
 
 mod facets;
+mod mesh;
 mod rectangle;
 mod sphere;
 
@@ -43,6 +44,7 @@ impl Shape {
                 by_area(reference, point, s.flat.normal, 0, s.area())
             }
             Shape::Convex(s) => facets::sample(s, reference, u),
+            Shape::Mesh(s) => mesh::sample(s, reference, u),
         }?;
         (toward.pdf > 0.0 && toward.pdf.is_finite()).then_some(toward)
     }
@@ -55,6 +57,7 @@ impl Shape {
             Shape::Rectangle(s) => rectangle::pdf(s, reference, direction, hit),
             Shape::Disk(s) => area_pdf(reference, direction, hit.point, hit.normal, s.area()),
             Shape::Convex(s) => facets::pdf(s, reference, direction, hit),
+            Shape::Mesh(s) => mesh::pdf(s, reference, direction, hit),
         };
         if pdf > 0.0 && pdf.is_finite() { pdf } else { 0.0 }
     }

@@ -1,0 +1,129 @@
+//! Rays and a mesh: what is met first, and where a ray begins that leaves a triangle.
+//!
+//! Which triangles a line crosses is exact ([`super::block`]); what is left to decide is whether a crossing close to the
+//! origin lies before or behind it. The origin of a ray that leaves a triangle is put onto that triangle in double
+//! precision, away from its edges and off its plane by twice what rounding it to single precision can move it, so it lies on
+//! the side it leaves to. That triangle is not met again. For all others the exact height of the origin above their plane
+//! tells, with the same bound: a crossing out of the side that the ray is on may be behind by as much, one out of the other
+//! side must be ahead by more. So the sides of what a ray meets of a closed mesh alternate.
+//!
+//! Tried and worse: no offset, with slacks of t alone. Beyond a nearly flat edge they are too small by the distance from the
+//! edge times the angle, and one ray in 40,000 that left a bumpy ball inwards was lost.
+
+use glam::{DVec3, Vec3};
+
+use super::Mesh;
+use super::block::{Block, Crossed, Line};
+use crate::geometry::Side;
+use crate::geometry::ray::Crossing;
+use crate::geometry::tree::BoxRay;
+
+/// No triangle.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// Crossings are told by heights up to this many bounds of the origin's error along the ray, beyond that by their distance: the plane
+/// of a grazed triangle passes close to points far from it.
+const NEAR: f64 = 64.0;
+
+/// A ray in the space of a mesh; distances are multiples of its direction's length.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Query {
+    pub origin: Vec3,
+    pub direction: Vec3,
+    /// Bound on the distance between the origin and the point it stands for.
+    pub error: f32,
+    /// Which crossings at the origin are still to come: those from the outside, from the inside.
+    pub comes: [bool; 2],
+    /// Triangles that are not met.
+    pub skip: [u32; 2],
+}
+
+impl Mesh {
+    /// A ray that leaves a triangle from `near`, a point on it but for rounding, into one side of it.
+    pub(super) fn leaving(&self, near: DVec3, direction: DVec3, triangle: u32, side: Side) -> Query {
+        let [a, b, c] = self.corners(triangle);
+        let size = (b - a).abs().max((c - a).abs()).max_element();
+        // At least the change that rounding to single precision, of the origin or of a corner seen from it, makes.
+        let delta = f64::from(f32::EPSILON) * (a.abs().max_element() + size);
+        let spot = self.spot(near, triangle, 4.0 * delta);
+        let out = spot.normal.normalize() * if side == Side::Outside { 1.0 } else { -1.0 };
+        // A direction that rounding has turned into the surface goes along it.
+        let direction = direction - out * direction.dot(out).min(0.0);
+        Query {
+            origin: (spot.point + out * (2.0 * delta)).as_vec3(),
+            direction: direction.as_vec3(),
+            error: (4.0 * delta) as f32,
+            comes: [side == Side::Outside, side == Side::Inside],
+            skip: [triangle, NONE],
+        }
+    }
+
+    /// The first triangle met within `limit`.
+    #[inline]
+    pub(super) fn closest(&self, query: &Query, limit: f32) -> Option<Crossing> {
+        let mut best: Option<Crossing> = None;
+        self.visit(query, limit, |crossing| {
+            // A tie goes to the lower number, whatever the tree looks like.
+            if best.is_none_or(|b| crossing.t < b.t || (crossing.t == b.t && crossing.facet < b.facet)) {
+                best = Some(crossing);
+            }
+            best.map_or(limit, |b| b.t)
+        });
+        best
+    }
+
+    /// Whether a triangle is surely met before `limit`.
+    #[inline]
+    pub(super) fn hides(&self, query: &Query, limit: f32) -> bool {
+        let mut hidden = false;
+        self.visit(query, limit, |crossing| {
+            hidden |= crossing.t + crossing.slack < limit;
+            if hidden { -1.0 } else { limit }
+        });
+        hidden
+    }
+
+    /// Shows what is met to `each`, which returns the farthest distance of interest.
+    #[inline]
+    fn visit(&self, query: &Query, limit: f32, mut each: impl FnMut(Crossing) -> f32) {
+        let line = Line::new(query.origin, query.direction);
+        let boxes = BoxRay::new(query.origin, query.direction, query.error);
+        self.tree.visit(&boxes, limit, |leaf, mut limit| {
+            let block = &self.blocks[leaf as usize];
+            block.cross(&line, |crossed| {
+                if crossed.t <= limit
+                    && !query.skip.contains(&block.triangle[crossed.lane])
+                    && let Some(crossing) = query.meets(block, &crossed)
+                {
+                    limit = each(crossing);
+                }
+            });
+            limit
+        });
+    }
+}
+
+impl Query {
+    /// Tells a crossing ahead from one behind the origin.
+    #[inline]
+    fn meets(&self, block: &Block, crossed: &Crossed) -> Option<Crossing> {
+        let [a, b, c] = block.corners(crossed.lane).map(|corner| corner.as_dvec3());
+        let normal = (b - a).cross(c - a);
+        let length = normal.length();
+        let height = normal.dot(self.origin.as_dvec3() - a) / length;
+        let rate = normal.dot(self.direction.as_dvec3()).abs() / length;
+        let (error, t) = (f64::from(self.error), f64::from(crossed.t));
+        let (room, comes) = match crossed.side {
+            Side::Outside => (height, self.comes[0]),
+            Side::Inside => (-height, self.comes[1]),
+        };
+        let near = t.abs() * f64::from(self.direction.length()) <= NEAR * error;
+        let ahead = if near { room > if comes { -error } else { error } } else { t > 0.0 };
+        ahead.then(|| Crossing {
+            t: crossed.t.max(0.0),
+            slack: (error / rate) as f32 + 2.0 * f32::EPSILON * crossed.t.abs(),
+            side: crossed.side,
+            facet: block.triangle[crossed.lane],
+        })
+    }
+}
