@@ -6,7 +6,14 @@
 
 use glam::DVec3;
 
-use super::{Shape, World};
+use super::{Shape, ShapeId, World};
+
+/// Shapes are stored in single precision, and so exact to that: in units of a rounding of their coordinates, bodies that meet may seem
+/// to overlap by this much,
+const MEETING: f64 = 4.0;
+
+/// and those that are this much apart have room between them.
+const ROOM: f64 = -16.0;
 
 /// Steps of Gilbert's algorithm; each one costs two support points.
 const STEPS: usize = 64;
@@ -28,19 +35,40 @@ impl Shape {
         match (self, other) {
             (Shape::Mesh(_), _) => self.is_solid(),
             (_, Shape::Mesh(mesh)) => {
-                let reaches = |triangle: &[DVec3; 3]| !Body::Shape(self).apart(&Body::Triangle(triangle));
+                let reaches = |triangle: &[DVec3; 3]| !Body::Shape(self).apart(&Body::Triangle(triangle), MEETING);
                 self.is_solid() && mesh.any_triangle_near(&self.bounds(), reaches)
             }
-            _ => self.is_solid() && !Body::Shape(self).apart(&Body::Shape(other)) && !Body::Shape(self).within(other),
+            _ => {
+                let (own, its) = (Body::Shape(self), Body::Shape(other));
+                self.is_solid() && !own.apart(&its, MEETING) && !own.within(other, MEETING)
+            }
         }
+    }
+
+    /// Whether the surfaces of two shapes may have points in common. False only if they surely have none: one is outside of the
+    /// other, or within it, with room between. Of two meshes only the boxes are looked at.
+    pub fn may_touch(&self, other: &Shape) -> bool {
+        let (own, its) = (Body::Shape(self), Body::Shape(other));
+        let clear = match (self, other) {
+            (Shape::Mesh(_), Shape::Mesh(_)) => false,
+            (Shape::Mesh(mesh), solid) | (solid, Shape::Mesh(mesh)) => {
+                let solid_body = Body::Shape(solid);
+                let touches = |triangle: &[DVec3; 3]| {
+                    let within = triangle.iter().all(|corner| solid.contains(corner.as_vec3()));
+                    !within && !solid_body.apart(&Body::Triangle(triangle), ROOM)
+                };
+                !mesh.any_triangle_near(&solid.bounds().padded(), touches)
+            }
+            _ => own.apart(&its, ROOM) || own.within(other, ROOM) || its.within(self, ROOM),
+        };
+        !clear && self.bounds().padded().meets(&other.bounds().padded())
     }
 }
 
 impl Body<'_> {
-    /// Whether some direction separates the two, up to single precision.
-    fn apart(&self, other: &Body) -> bool {
-        // Shapes are stored in single precision, and so exact to that; contact is meant to be contact.
-        let tolerance = 4.0 * f32::EPSILON as f64 * (self.extent() + other.extent());
+    /// Whether some direction separates the two, but for an overlap of some roundings.
+    fn apart(&self, other: &Body, roundings: f64) -> bool {
+        let tolerance = roundings * f32::EPSILON as f64 * (self.extent() + other.extent());
         let separates = |axis: DVec3| {
             let length = axis.length();
             length > 0.0 && self.reach(axis) + other.reach(-axis) <= tolerance * length
@@ -68,13 +96,13 @@ impl Body<'_> {
         false
     }
 
-    /// Whether this solid surely lies within the other, its surface included up to single precision.
-    fn within(&self, other: &Shape) -> bool {
+    /// Whether this body surely lies within a solid, its surface included, but for some roundings.
+    fn within(&self, other: &Shape, roundings: f64) -> bool {
         match other {
             Shape::Rectangle(_) | Shape::Disk(_) | Shape::Mesh(_) => false,
             Shape::Convex(outer) => {
                 let center = outer.center().as_dvec3();
-                let slack = 4.0 * f32::EPSILON as f64 * (center.abs().max_element() + outer.radius() as f64);
+                let slack = roundings * f32::EPSILON as f64 * (center.abs().max_element() + outer.radius() as f64);
                 let mut facets = outer.facets().iter();
                 facets.all(|f| {
                     let normal = f.normal.as_dvec3();
@@ -90,7 +118,7 @@ impl Body<'_> {
                     }
                     _ => return false,
                 };
-                far <= radius + 4.0 * f32::EPSILON as f64 * (center.abs().max_element() + radius)
+                far <= radius + roundings * f32::EPSILON as f64 * (center.abs().max_element() + radius)
             }
         }
     }
@@ -156,13 +184,17 @@ impl Body<'_> {
 }
 
 impl World {
+    /// The other shapes whose boxes meet that of a shape.
+    pub fn near(&self, id: ShapeId) -> impl Iterator<Item = (ShapeId, &Shape)> {
+        let near = self.shape(id).map_or_else(Vec::new, |shape| self.meeting(&shape.bounds().padded()));
+        near.into_iter().filter(move |&other| other != id).filter_map(|other| Some((other, self.shape(other)?)))
+    }
+
     /// Whether light inside the given solid can be traced with the solid alone: it is a solid, and nothing else reaches
     /// into it.
-    pub fn stands_alone(&self, id: super::ShapeId) -> bool {
+    pub fn stands_alone(&self, id: ShapeId) -> bool {
         self.shape(id).is_some_and(|solid| {
-            let near = |other: &Shape| solid.bounds().meets(&other.bounds());
-            let others = self.shapes().iter().enumerate().filter(|(i, other)| *i != id.0 as usize && near(other));
-            solid.is_solid() && others.into_iter().all(|(_, other)| !solid.may_touch_inside(other))
+            solid.is_solid() && self.near(id).all(|(_, other)| !solid.may_touch_inside(other))
         })
     }
 }

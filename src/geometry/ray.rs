@@ -85,6 +85,41 @@ pub struct Hit {
     pub shading: Vec3,
 }
 
+impl Hit {
+    /// The geometric normal on the side on which the ray arrived.
+    #[inline]
+    pub fn outward(&self) -> Vec3 {
+        if self.side == Side::Outside { self.normal } else { -self.normal }
+    }
+
+    /// Whether a direction leaves into a side of the triangle, as it does into that side of the smooth surface.
+    #[inline]
+    pub fn admits(&self, side: Side, direction: Vec3) -> bool {
+        self.shading == self.normal || (self.normal.dot(direction) > 0.0) == (side == Side::Outside)
+    }
+
+    /// The normal to scatter by, on the side of `wo`, the direction back along the ray.
+    ///
+    /// A smooth normal may look away from `wo`, or throw its mirror image below the triangle. Then it is turned as little as
+    /// puts the image back above (A. Keller et al., "The Iray Light Transport Simulation and Rendering System", 2017, A.3).
+    #[inline]
+    pub fn facing(&self, wo: Vec3) -> Vec3 {
+        let normal = self.outward();
+        if self.shading == self.normal {
+            return normal;
+        }
+        let shading = if self.side == Side::Outside { self.shading } else { -self.shading };
+        let mirrored = shading * (2.0 * shading.dot(wo)) - wo;
+        let least = (0.9 * normal.dot(wo)).clamp(0.0, 0.01);
+        let height = normal.dot(mirrored);
+        if height >= least {
+            return shading;
+        }
+        let lifted = (mirrored + normal * (least - height)).normalize_or(normal);
+        (wo + lifted).normalize_or(normal)
+    }
+}
+
 /// What a shape tells of a point on it, as in [`Hit`].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Surface {

@@ -55,6 +55,16 @@ impl Shape {
         each!(self, s => s.area())
     }
 
+    /// Scene units cubed; zero for what encloses nothing.
+    pub fn volume(&self) -> f64 {
+        match self {
+            Shape::Sphere(s) => 4.0 / 3.0 * std::f64::consts::PI * f64::from(s.radius()).powi(3),
+            Shape::Convex(s) => f64::from(s.volume()),
+            Shape::Mesh(s) => s.volume(),
+            Shape::Rectangle(_) | Shape::Disk(_) => 0.0,
+        }
+    }
+
     /// The shape under an affine map of world space. Fronts and outsides stay so under mirrors.
     pub fn transformed(&self, affine: &Affine3A) -> Result<Self, GeometryError> {
         Ok(match self {

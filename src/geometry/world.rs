@@ -1,6 +1,6 @@
 //! All shapes of a scene, and the two questions that are asked of them.
 
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 
 use super::ray::{Crossing, Departure, Hit, Probe, Ray, ShapeId, Side, Surface, Target, sum_abs};
 use super::shape::Leaving;
@@ -119,6 +119,25 @@ impl World {
     /// Texture coordinates of a hit, v upwards; none where the shape has none.
     pub fn uv(&self, hit: &Hit) -> Option<Vec2> {
         self.shape(hit.shape)?.uv(hit.point, hit.facet)
+    }
+
+    /// Another surface that coincides, up to rounding, with the one that was hit, for a ray that goes on through it.
+    pub fn beside(&self, hit: &Hit, direction: Vec3) -> Option<Hit> {
+        let through = Ray::leaving(hit, hit.side.opposite(), direction);
+        let rounding = self.probe(&through).origin_error;
+        let cosine = hit.normal.dot(direction).abs();
+        self.closest(&through, 4.0 * rounding / cosine.max(0.01))
+    }
+
+    /// The shapes whose boxes meet a box, in their order.
+    pub(super) fn meeting(&self, bounds: &Bounds) -> Vec<ShapeId> {
+        let mut found = match &self.tree {
+            Some(tree) => tree.near(bounds),
+            None => (0..self.shapes.len() as u32).collect(),
+        };
+        found.retain(|&shape| self.shapes[shape as usize].bounds().padded().meets(bounds));
+        found.sort_unstable();
+        found.into_iter().map(ShapeId).collect()
     }
 
     /// Shows candidates to `each`, which takes and returns the farthest distance of interest.

@@ -1,6 +1,7 @@
 //! A path at a dielectric boundary: reflected or refracted, and parted where a smooth one disperses.
 
 use super::Kernel;
+use super::media::MediaStack;
 use super::path::{Outcome, Path};
 use super::rough::Rough;
 use super::stone::Entry;
@@ -8,10 +9,44 @@ use crate::bsdf::dielectric::{reflect, refract, refract_lanes};
 use crate::bsdf::{Directions, choose};
 use crate::geometry::{Departure, Hit, Ray, Side};
 use crate::sampler::Sampler;
-use crate::scene::{Inside, Interface};
+use crate::scene::{Filling, Inside, Interface, Surface};
 use crate::spectrum::Lanes;
+use glam::Vec3;
+
+/// Boundaries that coincide at one place, at most.
+const MOST: usize = 8;
+
+/// What light meets at one place: one boundary, or several that coincide.
+struct Boundary {
+    /// Of the highest rank among them.
+    interface: Interface,
+    rank: u32,
+    /// Beyond all of them.
+    media: MediaStack,
+    /// The last one.
+    far: Hit,
+}
 
 impl Kernel<'_> {
+    /// Boundaries that coincide are one: there is no air between glasses that touch. Goes on through all that are met at once.
+    #[inline(never)]
+    fn contact(&self, mut boundary: Boundary, direction: Vec3) -> Boundary {
+        for _ in 0..MOST {
+            let Some(next) = self.scene.world.beside(&boundary.far, direction) else { break };
+            let Surface::Dielectric(interface) = self.surface(&next) else { break };
+            let rank = self.scene.object(next.shape).rank;
+            let entering = next.side == Side::Outside;
+            let media = boundary.media.across(Filling { rank, medium: interface.medium }, entering);
+            if rank > boundary.rank {
+                boundary.interface = interface;
+                boundary.rank = rank;
+            }
+            boundary.media = media;
+            boundary.far = next;
+        }
+        boundary
+    }
+
     /// A dielectric boundary: one of reflection and refraction is followed, all lanes alike.
     #[inline]
     pub fn interface<const N: usize>(
@@ -22,23 +57,29 @@ impl Kernel<'_> {
         sampler: &mut Sampler,
         radiance: &mut Lanes<N>,
     ) -> Outcome {
-        let &Interface { medium, model, .. } = interface;
         let entering = hit.side == Side::Outside;
-        // Where solids overlap the one entered last fills the space: leaving another changes nothing.
-        let from = path.media.current();
-        let to = if entering { medium } else { path.media.without(medium) };
+        let object = self.scene.object(hit.shape);
+        let media = path.media.across(Filling { rank: object.rank, medium: interface.medium }, entering);
+        let boundary = Boundary { interface: *interface, rank: object.rank, media, far: *hit };
+        let Boundary { interface, media, far, .. } = match object.touches {
+            true => self.contact(boundary, path.ray.direction),
+            false => boundary,
+        };
+        let (from, to) = (path.media.current(), media.current());
         if from == to {
-            path.media.cross(medium, entering);
+            path.media = media;
             // No shadow ray comes through here: a light that this ray meets counts in full.
             path.pdf = f32::INFINITY;
-            path.ray = Ray::leaving(hit, hit.side.opposite(), path.ray.direction);
+            path.ray = Ray::leaving(&far, far.side.opposite(), path.ray.direction);
             return Outcome::GoesOn;
         }
+        let Interface { model, .. } = interface;
         if interface.is_rough() {
-            return self.rough_interface(&Rough { interface, from, to }, path, hit, sampler, radiance);
+            let rough = Rough { interface, from, to, beyond: media, far };
+            return self.rough_interface(&rough, path, hit, sampler, radiance);
         }
         let (n1, n2) = (self.n(from, path.offset), self.n(to, path.offset));
-        let normal = if entering { hit.normal } else { -hit.normal };
+        let normal = hit.facing(-path.ray.direction);
         let cos_theta_i = (-path.ray.direction.dot(normal)).clamp(0.0, 1.0);
         let boundary = model.dielectric(&n1, &n2, &Lanes::splat(cos_theta_i));
         let choice = choose(&path.throughput, &boundary.r, sampler.uniform());
@@ -48,12 +89,13 @@ impl Kernel<'_> {
             path.ray = Ray::leaving(hit, hit.side, reflect(path.ray.direction, normal, cos_theta_i));
             return Outcome::GoesOn;
         }
-        path.media.cross(medium, entering);
+        let outside = path.media.current();
+        path.media = media;
         let parts = N > 1 && (self.scene.medium(from).dispersive || self.scene.medium(to).dispersive);
-        let into_stone = entering && (parts || N == 1) && self.scene.object(hit.shape).inside == Inside::Alone;
+        let into_stone = entering && (parts || N == 1) && object.inside == Inside::Alone;
         if !parts && !into_stone {
             let direction = refract(path.ray.direction, normal, n1[0] / n2[0], cos_theta_i, boundary.cos_theta_t[0]);
-            path.ray = Ray::leaving(hit, hit.side.opposite(), direction);
+            path.ray = Ray::leaving(&far, far.side.opposite(), direction);
             return Outcome::GoesOn;
         }
         let directions = refract_lanes(
@@ -64,10 +106,11 @@ impl Kernel<'_> {
             &boundary.cos_theta_t,
         );
         if into_stone {
-            return self.through_stone(&Entry { hit, directions, interface }, path, sampler, radiance);
+            let entry = Entry { hit, directions, interface: &interface, outside };
+            return self.through_stone(&entry, path, sampler, radiance);
         }
         for lane in 0..N {
-            let ray = Ray::leaving(hit, hit.side.opposite(), directions.get(lane));
+            let ray = Ray::leaving(&far, far.side.opposite(), directions.get(lane));
             self.go_on_alone(path, lane, ray, *sampler, radiance);
         }
         Outcome::Ended
@@ -96,7 +139,8 @@ impl Kernel<'_> {
         radiance: &mut Lanes<N>,
     ) -> Outcome {
         let Some(exits) = self.trace_stone(entry, path, sampler) else { return Outcome::Ended };
-        path.media.leave(entry.interface.medium);
+        let rank = self.scene.object(entry.hit.shape).rank;
+        path.media = path.media.across(Filling { rank, medium: entry.interface.medium }, false);
         let departs = Departure::Surface { shape: entry.hit.shape, facet: 0, side: Side::Outside };
         let ray = |lane| Ray { origin: exits.origins.get(lane), direction: exits.directions.get(lane), departs };
         if N == 1 {

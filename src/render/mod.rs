@@ -15,6 +15,7 @@ use crate::sampler::{self, PixelSamples, Sampler};
 use crate::scene::describe::SamplerName;
 use crate::scene::{Needs, Scene};
 use crate::spectrum::{Nodes, SpectrumId, Tables};
+use media::MediaStack;
 use path::Path;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -40,6 +41,7 @@ pub struct Kernel<'a> {
     tables: Tables,
     /// X, Y and Z in cd/m² per spectral radiance.
     observer: [SpectrumId; 3],
+    around_camera: MediaStack,
     max_depth: u32,
     sampler: sampler::Kind,
 }
@@ -53,7 +55,9 @@ impl<'a> Kernel<'a> {
             SamplerName::Sobol => sampler::Kind::Sobol,
             SamplerName::Independent => sampler::Kind::Independent,
         };
-        Self { scene, needs, tables, observer, max_depth: scene.settings.max_depth.unwrap_or(u32::MAX), sampler }
+        let around_camera =
+            scene.around_camera.iter().fold(MediaStack::OUTSIDE, |media, &solid| media.across(solid, true));
+        Self { scene, needs, tables, observer, around_camera, max_depth: scene.settings.max_depth.unwrap_or(u32::MAX), sampler }
     }
 
     /// XYZ in cd/m² of one sample of one pixel.
@@ -63,7 +67,7 @@ impl<'a> Kernel<'a> {
         let [dx, dy] = self.scene.filter.sample(sampler.uniform_2d());
         let [x, y] = [pixel[0] as f32 + 0.5 + dx, pixel[1] as f32 + 0.5 + dy];
         let ray = self.scene.camera.ray(x, y, || sampler.uniform_2d());
-        let radiance = self.radiance(Path::<N>::new(ray, offset), &mut sampler);
+        let radiance = self.radiance(Path::<N>::new(ray, offset, self.around_camera), &mut sampler);
         self.observer.map(|weights| (radiance * self.tables.get(weights, offset)).sum())
     }
 

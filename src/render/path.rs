@@ -38,8 +38,8 @@ pub struct Path<const N: usize> {
 }
 
 impl<const N: usize> Path<N> {
-    pub fn new(ray: Ray, offset: u32) -> Self {
-        Self { ray, throughput: Lanes::ONE, offset, media: MediaStack::OUTSIDE, pdf: f32::INFINITY, depth: 0 }
+    pub fn new(ray: Ray, offset: u32, media: MediaStack) -> Self {
+        Self { ray, throughput: Lanes::ONE, offset, media, pdf: f32::INFINITY, depth: 0 }
     }
 
     /// One lane, to go on alone.
@@ -115,7 +115,7 @@ impl Kernel<'_> {
     }
 
     #[inline]
-    fn surface(&self, hit: &Hit) -> Surface {
+    pub fn surface(&self, hit: &Hit) -> Surface {
         self.scene.surfaces[self.scene.object(hit.shape).surface as usize]
     }
 
@@ -127,7 +127,10 @@ impl Kernel<'_> {
         for (radiance, light_pdf) in lights.suns(direction) {
             arriving += self.tables.get(radiance, path.offset) * power_heuristic(path.pdf, light_pdf);
         }
-        path.throughput * arriving * self.transmittance(MediumId::OUTSIDE, f32::INFINITY, path.offset)
+        path.throughput
+            * arriving
+            * self.transmittance(MediumId::OUTSIDE, f32::INFINITY, path.offset)
+            * self.compression(MediumId::OUTSIDE, path.offset)
     }
 
     /// Light that a hit sends back along the ray, weighted against finding it by sampling the light.
@@ -150,10 +153,11 @@ impl Kernel<'_> {
     /// it needs no state and leaves the throughput that roulette looks at alone.
     #[inline]
     pub fn compression<const N: usize>(&self, medium: MediumId, offset: u32) -> Lanes<N> {
-        if medium == MediumId::OUTSIDE {
+        let seen_from = self.around_camera.current();
+        if medium == seen_from {
             return Lanes::ONE;
         }
-        let ratio = self.n::<N>(MediumId::OUTSIDE, offset) / self.n(medium, offset);
+        let ratio = self.n::<N>(seen_from, offset) / self.n(medium, offset);
         ratio * ratio
     }
 

@@ -4,6 +4,7 @@
 //! elsewhere goes on alone with a density of its own.
 
 use super::Kernel;
+use super::media::MediaStack;
 use super::path::{Outcome, Path};
 use super::scatter::power_heuristic;
 use crate::bsdf::{Frame, RoughDielectric};
@@ -14,12 +15,16 @@ use crate::spectrum::Lanes;
 use glam::Vec3;
 
 /// A rough boundary as a path meets it.
-pub struct Rough<'a> {
-    pub interface: &'a Interface,
+pub struct Rough {
+    pub interface: Interface,
     /// The medium that the path is in.
     pub from: MediumId,
     /// The medium beyond.
     pub to: MediumId,
+    /// The solids beyond.
+    pub beyond: MediaStack,
+    /// The last of the boundaries that coincide here.
+    pub far: Hit,
 }
 
 impl Kernel<'_> {
@@ -32,9 +37,8 @@ impl Kernel<'_> {
         sampler: &mut Sampler,
         radiance: &mut Lanes<N>,
     ) -> Outcome {
-        let Interface { medium, alpha, model } = *rough.interface;
-        let entering = hit.side == Side::Outside;
-        let frame = Frame::new(if entering { hit.normal } else { -hit.normal });
+        let Interface { alpha, model, .. } = rough.interface;
+        let frame = Frame::new(hit.facing(-path.ray.direction));
         let wo = frame.to_local(-path.ray.direction);
         let (n1, n2) = (self.n(rough.from, path.offset), self.n(rough.to, path.offset));
         let bsdf = RoughDielectric::new(model, &n1, &n2, alpha);
@@ -46,10 +50,15 @@ impl Kernel<'_> {
         path.throughput *= sample.weight;
         path.pdf = sample.pdf;
         let crosses = sample.wi.z < 0.0;
-        if crosses {
-            path.media.cross(medium, entering);
+        let direction = frame.to_world(sample.wi);
+        let (leaves, side) = rough.leaves(hit, crosses);
+        if !leaves.admits(side, direction) {
+            return Outcome::Ended;
         }
-        path.ray = Ray::leaving(hit, side(hit, crosses), frame.to_world(sample.wi));
+        if crosses {
+            path.media = rough.beyond;
+        }
+        path.ray = Ray::leaving(leaves, side, direction);
         Outcome::GoesOn
     }
 
@@ -80,13 +89,19 @@ impl Kernel<'_> {
         }
         let crosses = wi.z < 0.0;
         let medium = if crosses { rough.to } else { rough.from };
-        let arriving = self.arriving(&light, hit, side(hit, crosses), medium, offset);
+        let (leaves, side) = rough.leaves(hit, crosses);
+        if !leaves.admits(side, light.direction) {
+            return Lanes::ZERO;
+        }
+        let arriving = self.arriving(&light, leaves, side, medium, offset);
         value.f_cos * arriving * (power_heuristic(light.pdf, value.pdf) / light.pdf)
     }
 }
 
-/// The side of a hit that a ray leaves to.
-#[inline]
-fn side(hit: &Hit, crosses: bool) -> Side {
-    if crosses { hit.side.opposite() } else { hit.side }
+impl Rough {
+    /// The surface that a ray leaves, and into which side.
+    #[inline]
+    fn leaves<'a>(&'a self, hit: &'a Hit, crosses: bool) -> (&'a Hit, Side) {
+        if crosses { (&self.far, self.far.side.opposite()) } else { (hit, hit.side) }
+    }
 }

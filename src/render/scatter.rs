@@ -17,6 +17,22 @@ pub fn power_heuristic(taken: f32, other: f32) -> f32 {
     1.0 / (1.0 + ratio * ratio)
 }
 
+/// What is left of light from `wi` where a smooth normal stands for flat triangles: none from below the triangle, and no hard
+/// edge where the triangle turns away before the normal does.
+///
+/// Source: M. J.-Y. Chiang, Y. K. Li, B. Burley, "Taming the Shadow Terminator", SIGGRAPH 2019 Talks: with
+/// G = (ωg·ωi) / ((ωs·ωi) (ωg·ωs)) below 1, the factor −G³ + G² + G, which is 1 with slope 0 at G = 1.
+#[inline]
+fn terminator(hit: &Hit, shading: Vec3, wi: Vec3) -> f32 {
+    if hit.shading == hit.normal {
+        return 1.0;
+    }
+    let normal = hit.outward();
+    let ratio = normal.dot(wi) / (shading.dot(wi) * normal.dot(shading));
+    let g = if ratio > 0.0 { ratio.min(1.0) } else { 0.0 };
+    g * (1.0 + g * (1.0 - g))
+}
+
 impl Kernel<'_> {
     /// An opaque surface: light sampled directly, then a new direction.
     #[inline]
@@ -28,16 +44,16 @@ impl Kernel<'_> {
         sampler: &mut Sampler,
         radiance: &mut Lanes<N>,
     ) -> Outcome {
-        let normal = if hit.side == Side::Outside { hit.normal } else { -hit.normal };
-        let frame = Frame::new(normal);
+        let frame = Frame::new(hit.facing(-path.ray.direction));
         let wo = frame.to_local(-path.ray.direction);
         if self.needs.light_sampling && !bsdf.is_delta() {
             *radiance += path.throughput * self.direct(bsdf, &frame, wo, path, hit, sampler);
         }
         let Some(sample) = bsdf.sample(wo, sampler.uniform_2d()) else { return Outcome::Ended };
-        path.throughput *= sample.weight;
+        let direction = frame.to_world(sample.wi);
+        path.throughput *= sample.weight * terminator(hit, frame.z, direction);
         path.pdf = if sample.delta { f32::INFINITY } else { sample.pdf };
-        path.ray = Ray::leaving(hit, hit.side, frame.to_world(sample.wi));
+        path.ray = Ray::leaving(hit, hit.side, direction);
         Outcome::GoesOn
     }
 
@@ -64,7 +80,8 @@ impl Kernel<'_> {
             return Lanes::ZERO;
         }
         let arriving = self.arriving(&light, hit, hit.side, path.media.current(), path.offset);
-        value.f_cos * arriving * (power_heuristic(light.pdf, value.pdf) / light.pdf)
+        let seen = terminator(hit, frame.z, light.direction);
+        value.f_cos * arriving * (seen * power_heuristic(light.pdf, value.pdf) / light.pdf)
     }
 
     /// What a point of a light sends to one side of a hit through the medium there, in the measure of a path's throughput.

@@ -19,6 +19,8 @@ pub struct Entry<'a, const N: usize> {
     pub hit: &'a Hit,
     pub directions: Directions<N>,
     pub interface: &'a Interface,
+    /// What the stone stands in.
+    pub outside: MediumId,
 }
 
 /// Where lanes leave a stone, and whereto.
@@ -38,7 +40,7 @@ impl Kernel<'_> {
         let Shape::Convex(solid) = self.scene.world.shape(entry.hit.shape)? else { return None };
         let Interface { medium, model, .. } = *entry.interface;
         let inside = self.n(medium, path.offset);
-        let outside = self.n(path.media.without(medium), path.offset);
+        let outside = self.n(entry.outside, path.offset);
         let mut origins = Points::splat(entry.hit.point);
         let mut directions = entry.directions;
         while path.depth < self.max_depth {

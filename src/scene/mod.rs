@@ -32,6 +32,8 @@ pub struct Scene {
     pub media: Vec<Medium>,
     pub lights: Lights,
     pub camera: Camera,
+    /// The dielectric solids that the camera stands in.
+    pub around_camera: Vec<Filling>,
     pub filter: Filter,
     pub settings: Settings,
     pub picture: Picture,
@@ -47,8 +49,22 @@ pub struct Object {
     pub material: String,
     /// Index into [`Scene::surfaces`].
     pub surface: u32,
+    /// As the scene says it; 0 unless given.
+    pub priority: i32,
+    /// For dielectrics: where solids overlap, the highest rank fills the space. No two are equal.
+    pub rank: u32,
     /// For dielectrics; nothing is inside of other objects.
     pub inside: Inside,
+    /// For dielectrics: whether its boundary may coincide with that of another one somewhere.
+    pub touches: bool,
+}
+
+/// A solid as a path knows it that is inside of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Filling {
+    /// [`Object::rank`].
+    pub rank: u32,
+    pub medium: MediumId,
 }
 
 /// What happens to light at an object.

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 pub fn of_convex(solid: &Convex) -> Triangles {
     let fans = solid.facets().iter().flat_map(|facet| {
         let corners = &facet.corners;
-        (1..corners.len() - 1).map(|k| [corners[0], corners[k], corners[k + 1]].map(|corner| corner as u32))
+        (1..corners.len() - 1).map(|k| [corners[0], corners[k], corners[k + 1]])
     });
     Triangles { positions: solid.vertices().to_vec(), indices: fans.collect(), ..Triangles::default() }
 }

@@ -73,6 +73,12 @@ impl Placed {
         (0..self.mesh.triangles.indices.len() as u32).map(|triangle| self.area_of(triangle)).sum::<f64>() as f32
     }
 
+    /// Scene units cubed; zero unless it is closed.
+    pub fn volume(&self) -> f64 {
+        let own = if self.is_closed() { self.mesh.surroundings().volume } else { 0.0 };
+        own * self.frame.as_ref().map_or(1.0, |frame| frame.to_world.determinant().abs())
+    }
+
     pub(in crate::geometry) fn area_of(&self, triangle: u32) -> f64 {
         let [a, b, c] = self.corners(triangle);
         0.5 * (b - a).cross(c - a).length()
@@ -81,6 +87,13 @@ impl Placed {
     /// Corners of a triangle in the world's space.
     pub(in crate::geometry) fn corners(&self, triangle: u32) -> [DVec3; 3] {
         self.mesh.corners(triangle).map(|corner| self.to_world(corner))
+    }
+
+    /// Some of its corners, spread over the file's order.
+    pub fn some_corners(&self, count: usize) -> impl Iterator<Item = Vec3> {
+        let positions = &self.mesh.triangles.positions;
+        let step = positions.len().div_ceil(count.max(1)).max(1);
+        positions.iter().step_by(step).map(|p| self.to_world(p.as_dvec3()).as_vec3())
     }
 
     /// Whether `test` holds for a triangle whose surroundings meet a box.

@@ -4,7 +4,7 @@ use super::{Resolver, vector};
 use crate::camera::{Aperture, Camera, CameraError, Lens};
 use crate::geometry::World;
 use crate::scene::describe;
-use crate::scene::{Object, SceneError};
+use crate::scene::{Filling, Object, SceneError};
 use std::ops::Range;
 use toml::Spanned;
 
@@ -19,20 +19,28 @@ impl Resolver<'_> {
         &self,
         described: &Spanned<describe::Camera>,
         size: [u32; 2],
-        world: &World,
-        objects: &[Object],
     ) -> Result<Camera, SceneError> {
         let camera = described.get_ref();
         let lens = self.lens(camera, described.span())?;
         let [position, look_at] = [&camera.position, &camera.look_at].map(|v| vector(v.get_ref().values()));
         let up = camera.up.as_ref().map_or(UP, |up| up.get_ref().values());
-        if let Some(inside) = world.shapes().iter().position(|shape| shape.contains(position)) {
-            let message = format!("the camera stands inside `{}`, which is solid", objects[inside].name);
-            return Err(self.text.error(&camera.position.span(), message).help("move it out of the object"));
-        }
         let aperture = self.aperture(described, (look_at - position).length())?;
         Camera::new(position, look_at, vector(up), lens, aperture, size)
             .map_err(|error| self.text.error(&place(&error, described), error))
+    }
+
+    /// What the camera stands in.
+    pub fn around_camera(
+        &self,
+        described: &Spanned<describe::Camera>,
+        world: &World,
+        objects: &[Object],
+    ) -> Result<Vec<Filling>, SceneError> {
+        let position = &described.get_ref().position;
+        self.around(vector(position.get_ref().values()), world, objects).map_err(|inside| {
+            let message = format!("the camera stands inside `{}`, which lets no light through", objects[inside].name);
+            self.text.error(&position.span(), message).help("move it out of the object")
+        })
     }
 
     /// The opening in scene units; `None` without `f_number`, with which everything is in focus.

@@ -8,6 +8,7 @@ mod picture;
 mod provenance;
 mod settings;
 mod shapes;
+mod solids;
 
 pub use settings::Overrides;
 
@@ -85,9 +86,10 @@ impl Resolver<'_> {
         for sun in &file.suns {
             emitters.push(self.sun(sun.get_ref(), f64::from(world.bounds().size().length()) / 2.0)?);
         }
-        let camera = self.camera(&file.camera, [settings.width, settings.height], &world, &objects)?;
+        self.solids(&world, &mut objects);
+        let camera = self.camera(&file.camera, [settings.width, settings.height])?;
+        let around_camera = self.around_camera(&file.camera, &world, &objects)?;
         let picture = self.picture(&file.picture)?;
-        self.find_stones(&world, &mut objects);
         let lights = Lights::new(emitters, environment, objects.len());
         self.warn_of_darkness();
         self.warn_of_unused_materials();
@@ -100,6 +102,7 @@ impl Resolver<'_> {
             media: self.media,
             lights,
             camera,
+            around_camera,
             filter: settings::filter(settings.filter),
             settings,
             picture,

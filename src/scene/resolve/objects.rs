@@ -1,7 +1,7 @@
 //! Objects: each a shape of a material, some of them lights.
 
 use super::Resolver;
-use crate::geometry::{Shape, ShapeId, World};
+use crate::geometry::{Shape, ShapeId};
 use crate::light::{Emitter, Source};
 use crate::scene::describe;
 use crate::scene::{Inside, Object, SceneError, Surface};
@@ -87,17 +87,5 @@ impl Resolver<'_> {
             self.surfaces.push(Surface::Black);
             self.surfaces.len() - 1
         }) as u32
-    }
-
-    /// Finds the convex dielectrics that nothing else reaches into: their insides are traced without asking the scene.
-    pub fn find_stones(&self, world: &World, objects: &mut [Object]) {
-        for (object, id) in objects.iter_mut().zip((0..).map(ShapeId)) {
-            let surface = &self.surfaces[object.surface as usize];
-            let refracts = matches!(surface, Surface::Dielectric(interface) if !interface.is_rough());
-            let faceted = matches!(world.shape(id), Some(Shape::Convex(_)));
-            if refracts && faceted && world.stands_alone(id) {
-                object.inside = Inside::Alone;
-            }
-        }
     }
 }
