@@ -19,6 +19,7 @@ pub mod cuts;
 mod disk;
 mod error;
 mod flat;
+pub mod loaders;
 mod ray;
 mod rectangle;
 mod sampling;
