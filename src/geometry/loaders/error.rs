@@ -79,6 +79,27 @@ impl Fault {
         Self { kind: Kind::Content(message.into()), place: Place::Line(line) }
     }
 
+    pub fn at_byte(byte: usize, message: impl Into<String>) -> Self {
+        Self { kind: Kind::Content(message.into()), place: Place::Byte(byte) }
+    }
+
+    pub fn extensions(names: Vec<String>) -> Self {
+        Self { kind: Kind::Extensions(names), place: Place::File }
+    }
+
+    /// Another file that this one refers to cannot be read.
+    pub fn other_file(path: PathBuf, source: std::io::Error) -> Self {
+        Self { kind: Kind::Other(path, source), place: Place::File }
+    }
+
+    /// Says in what the fault is.
+    pub fn within(mut self, what: &str) -> Self {
+        if let Kind::Content(message) = &mut self.kind {
+            *message = format!("{what}: {message}");
+        }
+        self
+    }
+
     pub fn in_file(self, path: &Path) -> LoadError {
         let path = path.to_owned();
         match self.kind {

@@ -189,7 +189,12 @@ pub(super) fn position(x: f64, y: f64, z: f64) -> Result<Vec3, String> {
     Ok(single)
 }
 
-/// `1 triangle`, `2 triangles`.
+/// `1 triangle`, `2 triangles`, `2 meshes`.
 pub(super) fn count(number: usize, noun: &str) -> String {
-    format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
+    let ending = match noun.ends_with("sh") {
+        _ if number == 1 => "",
+        true => "es",
+        false => "s",
+    };
+    format!("{number} {noun}{ending}")
 }

@@ -22,8 +22,11 @@
 
 mod error;
 mod gather;
+mod gltf;
 mod obj;
+mod ply;
 mod polygon;
+mod stl;
 mod weld;
 
 use std::fs::File;
@@ -33,7 +36,6 @@ use std::path::Path;
 use glam::{DAffine3, DVec3};
 
 use super::Triangles;
-use error::Fault;
 pub use error::{LoadError, Place};
 
 /// What a mesh file holds.
@@ -113,12 +115,28 @@ pub const EXTENSIONS: [&str; 5] = ["obj", "ply", "stl", "gltf", "glb"];
 pub fn load(path: &Path) -> Result<MeshFile, LoadError> {
     let extension = path.extension().map(|text| text.to_string_lossy().to_lowercase());
     let stem = path.file_stem().map_or_else(String::new, |text| text.to_string_lossy().into_owned());
-    let read = match extension.as_deref() {
-        Some("obj") => |bytes: &[u8], stem: &str, _: &Path| obj::read(bytes, stem),
+    let format = match extension.as_deref() {
+        Some("obj") => Format::Obj,
+        Some("ply") => Format::Ply,
+        Some("stl") => Format::Stl,
+        Some("gltf" | "glb") => Format::Gltf,
         _ => return Err(LoadError::UnknownFormat { path: path.to_owned(), extension }),
     };
     let bytes = contents(path, None).map_err(|source| LoadError::Read { path: path.to_owned(), source })?;
-    read(&bytes, &stem, path).map_err(|fault| fault.in_file(path))
+    let file = match format {
+        Format::Obj => obj::read(&bytes, &stem),
+        Format::Ply => ply::read(&bytes, &stem),
+        Format::Stl => stl::read(&bytes, &stem),
+        Format::Gltf => gltf::read(&bytes, path),
+    };
+    file.map_err(|fault| fault.in_file(path))
+}
+
+enum Format {
+    Obj,
+    Ply,
+    Stl,
+    Gltf,
 }
 
 /// The bytes of a file, at most `limit`. Devices and pipes, which may never end, are refused.
