@@ -176,17 +176,23 @@ fn keep<T>(values: &mut Vec<T>, used: &[bool]) {
 /// A vertex of a file. Numbers that are none pass: they cost the triangles that use them; what single precision cannot
 /// work with is an error.
 pub(super) fn position(x: f64, y: f64, z: f64) -> Result<Vec3, String> {
-    let what = "a coordinate";
-    let single = DVec3::new(x, y, z).as_vec3();
-    let lost = |(double, single): (f64, f32)| double.is_finite() && !single.is_finite();
-    let value = [x, y, z].into_iter().zip(single.to_array()).find(|&pair| lost(pair));
-    if let Some((value, _)) = value {
-        return Err(GeometryError::OutOfRange { what, value: value.abs() }.to_string());
+    let point = DVec3::new(x, y, z);
+    in_range("a coordinate", point)?;
+    Ok(point.as_vec3())
+}
+
+/// Finite numbers within the range of shapes, or none at all.
+pub(super) fn in_range(what: &'static str, vector: DVec3) -> Result<(), String> {
+    let single = vector.as_vec3();
+    if single.is_finite() && check::point(what, single).is_ok() {
+        return Ok(());
     }
-    if single.is_finite() {
-        check::point(what, single).map_err(|error| error.to_string())?;
+    // The range is that of the check; the number is told as the file has it.
+    let too_large = |value: &f64| value.is_finite() && check::point(what, Vec3::splat(*value as f32)).is_err();
+    match vector.to_array().into_iter().find(too_large) {
+        Some(value) => Err(GeometryError::OutOfRange { what, value: value.abs() }.to_string()),
+        None => Ok(()),
     }
-    Ok(single)
 }
 
 /// `1 triangle`, `2 triangles`, `2 meshes`.

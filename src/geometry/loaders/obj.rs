@@ -13,7 +13,7 @@ use super::error::Fault;
 use super::gather::{Gathered, count, position};
 use super::polygon::Polygons;
 use super::weld::{Key, Weld};
-use super::{MeshFile, Part, Triangles};
+use super::{MeshFile, Part, Triangles, number};
 
 /// In place of an index that a corner does not have.
 const NONE: u32 = u32::MAX;
@@ -231,7 +231,7 @@ fn numbers(rest: &str, least: usize, line: usize) -> Result<[f32; 3], Fault> {
     let mut values = [0.0; 3];
     let mut found = 0;
     for (value, word) in values.iter_mut().zip(rest.split_ascii_whitespace()) {
-        *value = float(word).map_err(|message| Fault::at_line(line, message))?;
+        *value = number::parse(word).map_err(|message| Fault::at_line(line, message))?;
         found += 1;
     }
     if found < least {
@@ -239,17 +239,6 @@ fn numbers(rest: &str, least: usize, line: usize) -> Result<[f32; 3], Fault> {
         return Err(Fault::at_line(line, message));
     }
     Ok(values)
-}
-
-fn float(word: &str) -> Result<f32, String> {
-    match word.parse::<f32>() {
-        // `inf` is a number of sorts; digits that become infinite are too many.
-        Ok(value) if value.is_infinite() && word.contains(|c: char| c.is_ascii_digit()) => {
-            Err(format!("{word} is beyond the range of single precision"))
-        }
-        Ok(value) => Ok(value),
-        Err(_) => Err(format!("`{word}` is not a number")),
-    }
 }
 
 fn corner(word: &str, counts: [usize; 3], streams: &mut [Stream; 3], line: usize) -> Result<Key, Fault> {

@@ -7,9 +7,9 @@
 use glam::{DVec3, Vec3};
 
 use super::error::Fault;
-use super::gather::{Gathered, count, position};
+use super::gather::{Gathered, position};
 use super::weld::Weld;
-use super::{MeshFile, Part, Triangles};
+use super::{MeshFile, Part, Triangles, number};
 
 const HEAD: usize = 84;
 const RECORD: usize = 50;
@@ -59,8 +59,11 @@ impl Solid {
 
     fn finish(self, name: String, gathered: &mut Gathered) {
         if self.contradictions > 0 {
-            let facets = count(self.contradictions, "facet normal");
-            gathered.note(format!("{facets} of `{name}` contradict the order of the corners, which counts"));
+            let (facets, verb, whose) = match self.contradictions {
+                1 => ("1 facet normal".to_owned(), "points", "its"),
+                many => (format!("{many} facet normals"), "point", "their"),
+            };
+            gathered.note(format!("{facets} of `{name}` {verb} against the order of {whose} corners, which counts"));
         }
         let positions = self.weld.keys.iter().map(|&key| Vec3::from_array(key.map(f32::from_bits))).collect();
         let triangles = Triangles { positions, indices: self.indices, ..Triangles::default() };
@@ -146,8 +149,8 @@ impl<'a> Words<'a> {
     fn vector(&mut self) -> Result<DVec3, Fault> {
         let mut vector = [0.0; 3];
         for slot in &mut vector {
-            let word = self.next();
-            *slot = word.and_then(|word| word.parse().ok()).ok_or_else(|| self.fault(word, "a number"))?;
+            let word = self.next().ok_or_else(|| self.fault(None, "a number"))?;
+            *slot = number::parse(word).map_err(|message| Fault::at_line(self.line, message))?;
         }
         Ok(DVec3::from_array(vector))
     }

@@ -3,6 +3,7 @@
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 use super::super::error::Fault;
+use super::super::gather::in_range;
 use super::super::{FileCamera, Projection};
 use super::json::{Camera, Node, Root};
 
@@ -30,9 +31,14 @@ pub(super) fn walk(root: &Root) -> Result<Vec<Placed<'_>>, Fault> {
         if std::mem::replace(seen, true) {
             return Err(Fault::new(format!("node {index} hangs in the scene twice: nodes must be a tree")));
         }
-        let global = parent * local(node).map_err(|message| Fault::new(format!("node {index}: {message}")))?;
+        let fault = |message| Fault::new(format!("node {index}: {message}"));
+        let global = parent * local(node).map_err(fault)?;
+        let DMat3 { x_axis, y_axis, z_axis } = global.matrix3;
+        for column in [x_axis, y_axis, z_axis, global.translation] {
+            in_range("a number of its transform", column).map_err(fault)?;
+        }
         if !global.is_finite() {
-            return Err(Fault::new(format!("node {index}: its transform is not finite")));
+            return Err(fault("its transform is not finite".to_owned()));
         }
         waiting.extend(node.children.iter().rev().map(|&child| (child, global)));
         placed.push(Placed { node, index, global });

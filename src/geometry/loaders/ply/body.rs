@@ -1,6 +1,8 @@
 //! The numbers of a PLY file's body, from text or from bytes of either order.
 
 use super::super::error::Fault;
+use super::super::gather::count;
+use super::super::number;
 use super::header::{Element, Encoding, Type};
 
 /// Hands out the body number by number. All numbers of the format are exact in double precision.
@@ -67,7 +69,7 @@ impl Body for Text<'_> {
                 .map(|value| value as f64)
                 .ok_or_else(|| self.fault(format!("`{word}` is not a whole number")));
         }
-        word.parse().map_err(|_| self.fault(format!("`{word}` is not a number")))
+        number::parse(word).map_err(|message| self.fault(message))
     }
 
     fn end_row(&mut self) -> Result<(), Fault> {
@@ -166,7 +168,7 @@ impl Body for Binary<'_> {
     fn epilogue(&self) -> Option<String> {
         match self.left() {
             0 => None,
-            left => Some(format!("{left} bytes at the end belong to no element of the header")),
+            left => Some(format!("{} at the end, of no element of the header", count(left, "byte"))),
         }
     }
 }
