@@ -244,5 +244,10 @@ fn metadata(scene: &Scene, film: &Film, developed: &Developed) -> Metadata {
 /// Identifies what is rendered: the texts of scene and materials, and every spectrum that came of them.
 fn fingerprint(scene: &Scene) -> u64 {
     let texts: String = scene.sources.iter().map(|text| text.content.as_str()).collect();
-    fnv1a_64(format!("{texts}{:?}", scene.spectra).as_bytes())
+    // A file that can no longer be read has been told apart by its name.
+    let files =
+        scene.files.iter().map(|path| (path.file_name(), std::fs::read(path).ok().map(|bytes| fnv1a_64(&bytes))));
+    let files: Vec<_> = files.collect();
+    let files = if files.is_empty() { String::new() } else { format!("{files:?}") };
+    fnv1a_64(format!("{texts}{:?}{files}", scene.spectra).as_bytes())
 }

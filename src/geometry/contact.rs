@@ -193,8 +193,7 @@ impl World {
     /// Whether light inside the given solid can be traced with the solid alone: it is a solid, and nothing else reaches
     /// into it.
     pub fn stands_alone(&self, id: ShapeId) -> bool {
-        self.shape(id).is_some_and(|solid| {
-            solid.is_solid() && self.near(id).all(|(_, other)| !solid.may_touch_inside(other))
-        })
+        self.shape(id)
+            .is_some_and(|solid| solid.is_solid() && self.near(id).all(|(_, other)| !solid.may_touch_inside(other)))
     }
 }

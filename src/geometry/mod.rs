@@ -19,6 +19,7 @@ pub mod cuts;
 mod disk;
 mod error;
 mod flat;
+pub mod loaders;
 pub mod mesh;
 mod ray;
 mod rectangle;

@@ -18,8 +18,7 @@ pub struct MediaStack {
 }
 
 impl MediaStack {
-    pub const OUTSIDE: Self =
-        Self { inside_of: [Filling { rank: 0, medium: MediumId::OUTSIDE }; DEPTH], len: 0 };
+    pub const OUTSIDE: Self = Self { inside_of: [Filling { rank: 0, medium: MediumId::OUTSIDE }; DEPTH], len: 0 };
 
     /// The medium that the path is in.
     #[inline]

@@ -57,7 +57,15 @@ impl<'a> Kernel<'a> {
         };
         let around_camera =
             scene.around_camera.iter().fold(MediaStack::OUTSIDE, |media, &solid| media.across(solid, true));
-        Self { scene, needs, tables, observer, around_camera, max_depth: scene.settings.max_depth.unwrap_or(u32::MAX), sampler }
+        Self {
+            scene,
+            needs,
+            tables,
+            observer,
+            around_camera,
+            max_depth: scene.settings.max_depth.unwrap_or(u32::MAX),
+            sampler,
+        }
     }
 
     /// XYZ in cd/m² of one sample of one pixel.

@@ -33,6 +33,9 @@ pub struct SceneFile {
     pub suns: Vec<Spanned<SunLight>>,
     #[serde(default)]
     pub materials: BTreeMap<String, Spanned<Material>>,
+    /// Materials that mesh files name, by the scene's own: `"Ring" = "gold"`.
+    #[serde(default)]
+    pub replace: BTreeMap<Spanned<String>, Spanned<String>>,
     #[serde(default)]
     pub objects: Vec<Spanned<Object>>,
 }
@@ -317,11 +320,18 @@ pub enum ReflectanceSource {
 pub struct Object {
     /// For people; "object 7" unless given.
     pub name: Option<String>,
-    /// Needed unless the object shines: what only shines is black.
+    /// Needed unless the object shines (what only shines is black) or a mesh file names its materials.
     pub material: Option<Spanned<String>>,
     pub shape: Spanned<Shape>,
     pub transform: Option<Spanned<Transform>>,
+    /// Where the object stands instead, each place after `transform`: many equal things cost little more than one.
+    #[serde(default)]
+    pub copies: Vec<Spanned<Transform>>,
     pub emission: Option<Spanned<Emission>>,
+    /// Where dielectric solids overlap, the one with the highest number fills the space; among equals, the smaller one; 0 unless
+    /// given.
+    #[serde(default)]
+    pub priority: i32,
 }
 
 /// One kind of shape; lengths in scene units.
@@ -335,6 +345,7 @@ pub enum Shape {
     Convex(Convex),
     Brilliant(Brilliant),
     StepCut(StepCut),
+    Mesh(MeshFile),
 }
 
 /// A ball.
@@ -423,6 +434,19 @@ pub struct StepCut {
     pub pavilion_angles: Option<Numbers<3>>,
     /// Thickness.
     pub girdle: Option<Finite>,
+}
+
+/// Triangles from an OBJ, PLY, STL or glTF file. If they are closed, they are a solid. A part of the file whose material
+/// `[replace]` names gets that, others the object's material, or else the one that the file names, if there is one of that name.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MeshFile {
+    /// Next to the scene file unless absolute.
+    pub file: Spanned<String>,
+    /// Only the parts, or placements, of this name; all of the file unless given.
+    pub part: Option<Spanned<String>>,
+    /// Smooths edges that bend by less than this, in degrees: 0 shows every triangle flat. The file's own normals unless given.
+    pub crease_angle: Option<Number>,
 }
 
 /// Moves an object; applied in this order: scale, rotation about the origin, translation.

@@ -18,6 +18,7 @@ use crate::fresnel::FresnelModel;
 use crate::geometry::{ShapeId, World};
 use crate::light::Lights;
 use crate::spectrum::{About, Arena, ColorMatching, SpectrumId};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A scene with every name looked up, every unit converted and every check made.
@@ -41,6 +42,8 @@ pub struct Scene {
     pub warnings: Vec<String>,
     /// The scene's own text and the materials that it names.
     pub sources: Vec<Text>,
+    /// Meshes and pictures that it reads.
+    pub files: Vec<PathBuf>,
 }
 
 #[derive(Clone, Debug, PartialEq)]

@@ -53,7 +53,7 @@ impl Surroundings {
 }
 
 /// For each position, the first one that equals it.
-fn weld(positions: &[Vec3]) -> Vec<u32> {
+pub(super) fn weld(positions: &[Vec3]) -> Vec<u32> {
     let mut first: HashMap<[u32; 3], u32, BuildHasherDefault<Bits>> =
         HashMap::with_capacity_and_hasher(positions.len(), BuildHasherDefault::default());
     // Adding zero makes −0 the same as 0.

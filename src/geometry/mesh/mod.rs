@@ -4,12 +4,14 @@
 //! - [`closed`]: whether they enclose a volume, and which way they face
 //! - [`block`]: four triangles and a line, exact in what it crosses
 //! - [`query`]: rays through the tree, and where they begin when they leave a triangle
+//! - [`smooth`]: normals of meshes that have none
 //! - [`placed`]: a mesh under a transform; a thousand copies share the triangles
 
 mod block;
 mod closed;
 mod placed;
 mod query;
+mod smooth;
 
 pub use closed::Surroundings;
 pub use placed::Placed;

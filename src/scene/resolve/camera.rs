@@ -15,11 +15,7 @@ const UP: [f64; 3] = [0.0, 0.0, 1.0];
 const SENSOR_WIDTH_MM: f64 = 36.0;
 
 impl Resolver<'_> {
-    pub fn camera(
-        &self,
-        described: &Spanned<describe::Camera>,
-        size: [u32; 2],
-    ) -> Result<Camera, SceneError> {
+    pub fn camera(&self, described: &Spanned<describe::Camera>, size: [u32; 2]) -> Result<Camera, SceneError> {
         let camera = described.get_ref();
         let lens = self.lens(camera, described.span())?;
         let [position, look_at] = [&camera.position, &camera.look_at].map(|v| vector(v.get_ref().values()));

@@ -3,6 +3,7 @@
 mod camera;
 mod emission;
 mod materials;
+mod meshes;
 mod objects;
 mod picture;
 mod provenance;
@@ -19,6 +20,7 @@ use crate::geometry::{Bounds, World};
 use crate::light::{Environment, Lights};
 use crate::spectrum::{Arena, ColorMatching, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Library, Observer, Spectrum, SpectrumId};
 use glam::{DVec3, Vec3};
+use meshes::Meshes;
 use objects::Objects;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -45,6 +47,7 @@ pub fn resolve(text: Text, library: &Library, overrides: &Overrides) -> Result<S
         data: Vec::new(),
         warnings: Vec::new(),
         sources: Vec::new(),
+        meshes: BTreeMap::new(),
     };
     resolver.scene(&file, overrides)
 }
@@ -67,6 +70,7 @@ struct Resolver<'a> {
     data: Vec<DataSet>,
     warnings: Vec<String>,
     sources: Vec<Text>,
+    meshes: Meshes,
 }
 
 impl Resolver<'_> {
@@ -77,7 +81,7 @@ impl Resolver<'_> {
         let vacuum = self.spectra.add(Spectrum::Constant(1.0));
         self.media.push(Medium { name: "vacuum".into(), n: vacuum, absorption: None, dispersive: false });
         file.outside.as_ref().map(|name| self.outside(name)).transpose()?;
-        let Objects { mut objects, shapes, mut emitters } = self.objects(&file.objects)?;
+        let Objects { mut objects, shapes, mut emitters } = self.objects(&file.objects, &file.replace)?;
         let world = World::new(shapes).map_err(|error| self.text.whole(error))?;
         let environment = match &file.environment {
             Some(environment) => self.environment(environment.get_ref(), surface(&world.bounds()))?,
@@ -109,6 +113,7 @@ impl Resolver<'_> {
             data: self.data,
             warnings: self.warnings,
             sources: self.sources,
+            files: self.meshes.into_keys().map(|(path, _)| path).collect(),
         })
     }
 

@@ -1,10 +1,12 @@
 //! Objects: each a shape of a material, some of them lights.
 
 use super::Resolver;
+use super::shapes::affine;
 use crate::geometry::{Shape, ShapeId};
 use crate::light::{Emitter, Source};
 use crate::scene::describe;
 use crate::scene::{Inside, Object, SceneError, Surface};
+use std::collections::{BTreeMap, BTreeSet};
 use toml::Spanned;
 
 /// All objects of a scene, in the order of the file.
@@ -15,32 +17,113 @@ pub struct Objects {
     pub emitters: Vec<Emitter>,
 }
 
+/// A shape that an object consists of, and its material if a mesh file names one.
+struct Piece {
+    name: String,
+    shape: Shape,
+    material: Option<String>,
+}
+
+type Replace = BTreeMap<Spanned<String>, Spanned<String>>;
+
 impl Resolver<'_> {
-    pub fn objects(&mut self, described: &[Spanned<describe::Object>]) -> Result<Objects, SceneError> {
+    pub fn objects(
+        &mut self,
+        described: &[Spanned<describe::Object>],
+        replace: &Replace,
+    ) -> Result<Objects, SceneError> {
         let mut all = Objects::default();
+        let mut replaced = BTreeSet::new();
         for (index, described) in described.iter().enumerate() {
             let object = described.get_ref();
             let name = object.name.clone().unwrap_or_else(|| format!("object {}", index + 1));
-            let shape = self.shape(object)?;
-            let surface = self.surface_of(described, &name)?;
-            if let Surface::Dielectric(_) = self.surfaces[surface as usize] {
-                self.check_dielectric(object, &shape, &name)?;
+            for piece in self.pieces_of(object, &name)? {
+                let replacement = piece.material.as_deref().and_then(|named| replace.get_key_value(named));
+                replaced.extend(replacement.map(|(name, _)| name.get_ref().as_str()));
+                let material = replacement.map(|(_, material)| material).or(object.material.as_ref());
+                self.object(&mut all, described, piece, material)?;
             }
-            if let Some(emission) = &object.emission {
-                all.emitters.push(self.emitter(emission.get_ref(), &name, ShapeId(index as u32), &shape)?);
-            }
-            let material = object.material.as_ref().map_or("light", |material| material.get_ref()).to_owned();
-            all.objects.push(Object { name, material, surface, inside: Inside::General });
-            all.shapes.push(shape);
+        }
+        let unused = replace.keys().filter(|name| !replaced.contains(name.get_ref().as_str()));
+        for name in unused {
+            self.warnings.push(format!("no mesh of this scene has a material `{}` to replace", name.get_ref()));
         }
         Ok(all)
     }
 
-    fn surface_of(&mut self, described: &Spanned<describe::Object>, name: &str) -> Result<u32, SceneError> {
+    /// The shapes of an object: one, or as many as its file and its copies make.
+    fn pieces_of(&mut self, object: &describe::Object, name: &str) -> Result<Vec<Piece>, SceneError> {
+        let mut pieces = self
+            .shape(object)?
+            .map_or_else(Vec::new, |shape| vec![Piece { name: name.to_owned(), shape, material: None }]);
+        if let describe::Shape::Mesh(file) = object.shape.get_ref() {
+            let found = self.pieces(file)?;
+            let alone = found.len() == 1;
+            let full = |part: String| if alone || part == name { name.to_owned() } else { format!("{name}: {part}") };
+            pieces.extend(found.into_iter().map(|piece| Piece {
+                name: full(piece.name),
+                shape: piece.placed.into(),
+                material: piece.material,
+            }));
+        }
+        if let Some(transform) = &object.transform {
+            pieces = pieces.iter().map(|piece| self.moved(piece, transform)).collect::<Result<_, _>>()?;
+        }
+        if object.copies.is_empty() {
+            return Ok(pieces);
+        }
+        let mut copies = Vec::with_capacity(pieces.len() * object.copies.len());
+        for (number, place) in (1..).zip(&object.copies) {
+            for piece in &pieces {
+                let copy = self.moved(piece, place)?;
+                copies.push(Piece { name: format!("{} #{number}", piece.name), ..copy });
+            }
+        }
+        Ok(copies)
+    }
+
+    fn moved(&self, piece: &Piece, transform: &Spanned<describe::Transform>) -> Result<Piece, SceneError> {
+        let affine = affine(transform.get_ref());
+        let shape = piece.shape.transformed(&affine).map_err(|error| self.text.error(&transform.span(), error))?;
+        Ok(Piece { name: piece.name.clone(), shape, material: piece.material.clone() })
+    }
+
+    fn object(
+        &mut self,
+        all: &mut Objects,
+        described: &Spanned<describe::Object>,
+        piece: Piece,
+        material: Option<&Spanned<String>>,
+    ) -> Result<(), SceneError> {
         let object = described.get_ref();
-        match &object.material {
+        let Piece { name, shape, material: named } = piece;
+        let by_file = named.map(|named| Spanned::new(object.shape.span(), named));
+        let material = material.or(by_file.as_ref());
+        let surface = self.surface_of(described, material, &name)?;
+        if let Surface::Dielectric(_) = self.surfaces[surface as usize] {
+            self.check_dielectric(object, &shape, &name)?;
+        }
+        if let Some(emission) = &object.emission {
+            let id = ShapeId(all.shapes.len() as u32);
+            all.emitters.push(self.emitter(emission.get_ref(), &name, id, &shape)?);
+        }
+        let material = material.map_or("light", |material| material.get_ref()).to_owned();
+        let priority = object.priority;
+        let (rank, inside, touches) = (0, Inside::General, false);
+        all.objects.push(Object { name, material, surface, priority, rank, inside, touches });
+        all.shapes.push(shape);
+        Ok(())
+    }
+
+    fn surface_of(
+        &mut self,
+        described: &Spanned<describe::Object>,
+        material: Option<&Spanned<String>>,
+        name: &str,
+    ) -> Result<u32, SceneError> {
+        match material {
             Some(material) => self.material(material),
-            None if object.emission.is_some() => Ok(self.black()),
+            None if described.get_ref().emission.is_some() => Ok(self.black()),
             None => {
                 let message = format!("{name} has neither a material nor an emission");
                 let error = self.text.error(&described.span(), message);
@@ -67,8 +150,10 @@ impl Resolver<'_> {
         Ok(Emitter { source: Source::Shape { id, two_sided }, radiance: light.id, power })
     }
 
-    fn check_dielectric(&self, object: &describe::Object, shape: &Shape, name: &str) -> Result<(), SceneError> {
-        if !shape.is_solid() {
+    fn check_dielectric(&mut self, object: &describe::Object, shape: &Shape, name: &str) -> Result<(), SceneError> {
+        if let Shape::Mesh(placed) = shape {
+            self.warn_of_openings(name, placed);
+        } else if !shape.is_solid() {
             let message = format!("{name} is flat, but a dielectric needs an inside");
             return Err(self.text.error(&object.shape.span(), message).help("use a thin `box` instead"));
         }

@@ -9,11 +9,9 @@ use glam::{Affine3A, DMat3, DVec3, Vec3};
 use toml::Spanned;
 
 impl Resolver<'_> {
-    pub fn shape(&self, object: &describe::Object) -> Result<Shape, SceneError> {
-        let shape = build(object.shape.get_ref()).map_err(|error| self.misshapen(error, &object.shape))?;
-        let Some(transform) = &object.transform else { return Ok(shape) };
-        let affine = affine(transform.get_ref());
-        shape.transformed(&affine).map_err(|error| self.text.error(&transform.span(), error))
+    /// The shape of an object where it is made; none for a mesh, which is loaded.
+    pub fn shape(&self, object: &describe::Object) -> Result<Option<Shape>, SceneError> {
+        build(object.shape.get_ref()).map_err(|error| self.misshapen(error, &object.shape))
     }
 
     fn misshapen(&self, error: GeometryError, shape: &Spanned<describe::Shape>) -> SceneError {
@@ -26,8 +24,8 @@ impl Resolver<'_> {
     }
 }
 
-fn build(shape: &describe::Shape) -> Result<Shape, GeometryError> {
-    Ok(match shape {
+fn build(shape: &describe::Shape) -> Result<Option<Shape>, GeometryError> {
+    Ok(Some(match shape {
         describe::Shape::Sphere(sphere) => {
             Shape::Sphere(Sphere::new(vector(sphere.center.values()), sphere.radius.0 as f32)?)
         }
@@ -49,7 +47,8 @@ fn build(shape: &describe::Shape) -> Result<Shape, GeometryError> {
         }
         describe::Shape::Brilliant(cut) => brilliant(cut).solid()?.into(),
         describe::Shape::StepCut(cut) => step_cut(cut).solid()?.into(),
-    })
+        describe::Shape::Mesh(_) => return Ok(None),
+    }))
 }
 
 /// Two unit vectors that span the plane of a rectangle; its front faces the normal, its width stays level.
@@ -61,7 +60,7 @@ fn edges(normal: [f64; 3]) -> Result<[Vec3; 2], GeometryError> {
     Ok([u.as_vec3(), normal.cross(u).as_vec3()])
 }
 
-fn affine(transform: &describe::Transform) -> Affine3A {
+pub fn affine(transform: &describe::Transform) -> Affine3A {
     let scale = transform.scale.as_ref().map_or([1.0; 3], |scale| scale.get_ref().0.values());
     let [(sx, cx), (sy, cy), (sz, cz)] =
         transform.rotate.unwrap_or_default().values().map(|degrees| libm::sincos(degrees.to_radians()));

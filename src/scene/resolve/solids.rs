@@ -122,4 +122,3 @@ fn on_sphere(shape: &Shape, center: Vec3, i: usize) -> Option<Vec3> {
     let across = (1.0 - z * z).sqrt();
     Some(center + Vec3::new(across * cos, across * sin, z) * sphere.radius())
 }
-

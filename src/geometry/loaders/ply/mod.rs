@@ -1,0 +1,221 @@
+//! PLY, the Stanford polygon format: text, or bytes of either order.
+//!
+//! Source: G. Turk, "The PLY polygon file format" (Stanford, 1994). Of `vertex` the properties x, y, z, then nx, ny, nz and
+//! u, v (also s, t or texture_u, texture_v) are read; of `face` the list vertex_indices or vertex_index, counted from 0. Other
+//! elements and properties are passed over. The file is one part, without a material.
+
+mod body;
+mod header;
+
+use glam::{Vec2, Vec3};
+
+use super::error::Fault;
+use super::gather::{Gathered, count, position};
+use super::polygon::Polygons;
+use super::{MeshFile, Part, Triangles};
+use body::{Binary, Body, Text};
+use header::{Element, Encoding, Header};
+
+pub(super) fn read(bytes: &[u8], stem: &str) -> Result<MeshFile, Fault> {
+    let header = Header::parse(bytes)?;
+    let layout = Layout::of(&header)?;
+    match header.encoding {
+        Encoding::Ascii => {
+            let text = String::from_utf8_lossy(bytes.get(header.bytes..).unwrap_or_default());
+            read_body(Text::new(&text, header.lines), &header, &layout, stem)
+        }
+        encoding => read_body(Binary::new(bytes, header.bytes, encoding), &header, &layout, stem),
+    }
+}
+
+/// What is taken of a vertex, by slot.
+const NAMES: [&[&str]; 8] = [
+    &["x"],
+    &["y"],
+    &["z"],
+    &["nx"],
+    &["ny"],
+    &["nz"],
+    &["u", "s", "texture_u", "texture_s"],
+    &["v", "t", "texture_v", "texture_t"],
+];
+/// A ninth slot takes what is passed over.
+const PASSED: usize = NAMES.len();
+
+/// Which properties go where.
+struct Layout {
+    /// The slot of each property of a vertex.
+    slots: Vec<usize>,
+    has_normals: bool,
+    has_uvs: bool,
+    vertices: usize,
+    /// Which property of a face is its list of vertices.
+    list: usize,
+}
+
+impl Layout {
+    fn of(header: &Header) -> Result<Self, Fault> {
+        let absent = |name: &str| Fault::new(format!("the header has no element `{name}`"));
+        let vertex = header.element("vertex").ok_or_else(|| absent("vertex"))?;
+        let face = header.element("face").ok_or_else(|| absent("face"))?;
+        let slot = |name: &str| NAMES.iter().position(|names| names.contains(&name)).unwrap_or(PASSED);
+        let slots: Vec<usize> = vertex
+            .properties
+            .iter()
+            .map(|property| if property.length.is_some() { PASSED } else { slot(&property.name) })
+            .collect();
+        let has = |wanted: &[usize]| wanted.iter().all(|slot| slots.contains(slot));
+        if !has(&[0, 1, 2]) {
+            let message = "the element `vertex` lacks one of the properties `x`, `y`, `z`";
+            return Err(Fault::at_line(vertex.line, message));
+        }
+        let is_list = |name: &str| matches!(name, "vertex_indices" | "vertex_index");
+        let list = face.properties.iter().position(|property| is_list(&property.name) && property.length.is_some());
+        let Some(list) = list else {
+            return Err(Fault::at_line(face.line, "the element `face` has no list `vertex_indices` or `vertex_index`"));
+        };
+        if face.properties.get(list).is_some_and(|property| !property.value.is_integer()) {
+            return Err(Fault::at_line(face.line, "the vertices of a face are not of an integer type"));
+        }
+        let (has_normals, has_uvs) = (has(&[3, 4, 5]), has(&[6, 7]));
+        Ok(Self { slots, has_normals, has_uvs, vertices: vertex.count, list })
+    }
+}
+
+fn read_body(mut body: impl Body, header: &Header, layout: &Layout, stem: &str) -> Result<MeshFile, Fault> {
+    let mut gathered = Gathered::default();
+    let mut triangles = Triangles::default();
+    let mut faces = Polygons::default();
+    for element in &header.elements {
+        match element.name.as_str() {
+            "vertex" => read_vertices(&mut body, element, layout, &mut triangles)?,
+            "face" => {
+                let thin = read_faces(&mut body, element, layout, &mut faces)?;
+                if thin > 0 {
+                    gathered.note(format!("{} of fewer than 3 vertices skipped", count(thin, "face")));
+                }
+            }
+            _ => pass_over(&mut body, element)?,
+        }
+    }
+    if let Some(note) = body.epilogue() {
+        gathered.note(note);
+    }
+    triangles.indices = faces.triangles(&triangles.positions);
+    gathered.add(Part { name: stem.to_owned(), material: None, triangles });
+    gathered.finish_in_place()
+}
+
+fn read_vertices(
+    body: &mut impl Body,
+    element: &Element,
+    layout: &Layout,
+    triangles: &mut Triangles,
+) -> Result<(), Fault> {
+    // However many the header promises, each of their numbers takes a byte.
+    let room = element.count.min(body.left() / element.properties.len().max(1));
+    triangles.positions.reserve(room);
+    triangles.normals.reserve(if layout.has_normals { room } else { 0 });
+    triangles.uvs.reserve(if layout.has_uvs { room } else { 0 });
+    for row in 0..element.count {
+        body.begin_row(element, row)?;
+        let mut values = [0.0; PASSED + 1];
+        for (property, &slot) in element.properties.iter().zip(&layout.slots) {
+            let value = match property.length {
+                None => body.number(property.value)?,
+                Some(_) => pass_list(body, property)?,
+            };
+            if let Some(place) = values.get_mut(slot) {
+                *place = value;
+            }
+        }
+        body.end_row()?;
+        let [x, y, z, nx, ny, nz, u, v, _] = values;
+        triangles.positions.push(position(x, y, z).map_err(|message| body.fault(message))?);
+        if layout.has_normals {
+            triangles.normals.push(Vec3::new(nx as f32, ny as f32, nz as f32));
+        }
+        if layout.has_uvs {
+            triangles.uvs.push(Vec2::new(u as f32, v as f32));
+        }
+    }
+    Ok(())
+}
+
+/// The faces, and how many were skipped.
+fn read_faces(body: &mut impl Body, element: &Element, layout: &Layout, faces: &mut Polygons) -> Result<usize, Fault> {
+    let room = element.count.min(body.left() / element.properties.len().max(1));
+    faces.sizes.reserve(room);
+    faces.corners.reserve(room.saturating_mul(3).min(body.left()));
+    let mut thin = 0;
+    for row in 0..element.count {
+        body.begin_row(element, row)?;
+        for (place, property) in element.properties.iter().enumerate() {
+            match property.length {
+                None => {
+                    body.number(property.value)?;
+                }
+                Some(length) if place == layout.list => {
+                    let size = list_length(body, length)?;
+                    for _ in 0..size {
+                        let vertex = body.number(property.value)?;
+                        if !(vertex >= 0.0 && vertex < layout.vertices as f64 && vertex <= u32::MAX.into()) {
+                            let message = format!(
+                                "face {row} names vertex {vertex}, but the file has {} (counted from 0)",
+                                layout.vertices
+                            );
+                            return Err(body.fault(message));
+                        }
+                        faces.corners.push(vertex as u32);
+                    }
+                    if size < 3 {
+                        faces.corners.truncate(faces.corners.len().saturating_sub(size as usize));
+                        thin += 1;
+                    } else {
+                        faces.sizes.push(size);
+                    }
+                }
+                Some(_) => {
+                    pass_list(body, property)?;
+                }
+            }
+        }
+        body.end_row()?;
+    }
+    Ok(thin)
+}
+
+fn list_length(body: &mut impl Body, kind: header::Type) -> Result<u32, Fault> {
+    let length = body.number(kind)?;
+    if length >= 0.0 && length <= u32::MAX.into() && length.fract() == 0.0 {
+        return Ok(length as u32);
+    }
+    Err(body.fault(format!("a list of {length} values")))
+}
+
+fn pass_list(body: &mut impl Body, property: &header::Property) -> Result<f64, Fault> {
+    if let Some(kind) = property.length {
+        for _ in 0..list_length(body, kind)? {
+            body.number(property.value)?;
+        }
+    }
+    Ok(0.0)
+}
+
+fn pass_over(body: &mut impl Body, element: &Element) -> Result<(), Fault> {
+    for row in 0..element.count {
+        body.begin_row(element, row)?;
+        for property in &element.properties {
+            match property.length {
+                None => {
+                    body.number(property.value)?;
+                }
+                Some(_) => {
+                    pass_list(body, property)?;
+                }
+            }
+        }
+        body.end_row()?;
+    }
+    Ok(())
+}
