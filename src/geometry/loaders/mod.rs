@@ -5,11 +5,12 @@
 //! can be left out without harm (triangles without area, lines, points) is left out, counted and told in
 //! [`MeshFile::notes`].
 //!
-//! The readers are our own, because of what they say of broken files. `tobj` and `stl_io` name no place at all; `ply-rs-bw`,
-//! as fast as ours on bytes (0.05 s for the file below, 0.29 s as text), hands out elements without their place, so a
-//! face that names a missing vertex has no line; `gltf` keeps the transforms of nodes in single precision and refuses files
-//! for required extensions of materials, which we replace anyway. What does fit is used: `serde_json` for the text of
-//! glTF, `base64` for the data inside it, the standard library's correctly rounded numbers.
+//! The readers are our own, because of what they say of broken files. `tobj` and `stl_io` name no place at all;
+//! `ply-rs-bw`, as fast as ours on bytes (0.05 s for the file below, 0.29 s as text), hands out elements without
+//! their place, so a face that names a missing vertex has no line; `gltf` keeps the transforms of nodes in single
+//! precision and refuses files for required extensions of materials, which we replace anyway. What does fit is used:
+//! `serde_json` for the text of glTF, `base64` for the data inside it, the standard library's correctly rounded
+//! numbers.
 //!
 //! From file to [`MeshFile`], a torus of 1 M triangles with normals and texture coordinates, one thread of a Zen 4
 //! server (`times::load_times` of `tests/geometry_loaders` prints it):
