@@ -228,7 +228,9 @@ proptest! {
     }
 
     #[test]
-    fn random_bytes_are_no_mesh(which in 0..9_usize, keep in 0..120_usize, noise in prop::collection::vec(any::<u8>(), 0..400)) {
+    fn random_bytes_are_no_mesh(
+        which in 0..9_usize, keep in 0..120_usize, noise in prop::collection::vec(any::<u8>(), 0..400)
+    ) {
         let (extension, mut bytes) = CUBES[which].clone();
         bytes.truncate(keep);
         bytes.extend(noise);

@@ -268,8 +268,8 @@ fn mistakes_are_named() {
         |root| root["nodes"][1]["matrix"] = json!([0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1]),
         "node 1: the last row of its matrix is [1.0, 0.0, 0.0, 1.0], expected [0, 0, 0, 1]",
     );
-    let huge = "node 0: a number of its transform is 1e300; single precision wants sizes and coordinates within 1e-15 … 1e15 \
-                (choose another unit)";
+    let huge = "node 0: a number of its transform is 1e300; \
+                single precision wants sizes and coordinates within 1e-15 … 1e15 (choose another unit)";
     wrong(|root| root["nodes"][0]["scale"] = json!([1e300, 1e300, 1e300]), huge);
     wrong(
         |root| root["accessors"][0]["count"] = 9.into(),

@@ -17,7 +17,8 @@ fn normals_coordinates_and_strangers() {
     let header = "obj_info scanned\nelement camera 1\nproperty float a\nproperty list uchar float b\n\
                   element vertex 3\nproperty uchar red\nproperty float x\nproperty list int int q\nproperty short y\n\
                   property float z\nproperty float nx\nproperty float ny\nproperty float nz\nproperty float s\n\
-                  property float t\nelement face 1\nproperty list uchar float texcoord\nproperty list uchar ushort vertex_indices\n\
+                  property float t\nelement face 1\nproperty list uchar float texcoord\n\
+                  property list uchar ushort vertex_indices\n\
                   property int group\nelement edge 1\nproperty int a\n";
     let body = "7 2 0.5 0.5\n9 0 0 0 0 0 0 2 0 0.25\n9 1.5 2 8 8 0 0 0 0 1 1 0.5\n9 0 1 8 1 0 0 0 1 0.5 1\n\
                 6 0 0 1 0 1 1 3 0 1 2 4\n5\n";

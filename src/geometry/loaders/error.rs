@@ -20,7 +20,10 @@ pub enum LoadError {
     Content { path: PathBuf, place: Place, message: String },
 
     /// A glTF file that cannot be shown without extensions that are not supported.
-    #[error("{}: it requires {}, which spectrel does not support; export it without", .path.display(), .names.join(", "))]
+    #[error(
+        "{}: it requires {}, which spectrel does not support; export it without",
+        .path.display(), .names.join(", ")
+    )]
     Extensions { path: PathBuf, names: Vec<String> },
 }
 

@@ -63,8 +63,8 @@ impl Gathered {
         }
     }
 
-    /// One normal without direction spoils the interpolation of its neighbours, and a guess could differ much from what was
-    /// meant: then the part is faceted.
+    /// One normal without direction spoils the interpolation of its neighbours, and a guess could differ much from what
+    /// was meant: then the part is faceted.
     fn drop_bad_normals(&mut self, part: &mut Part) {
         let normals = &mut part.triangles.normals;
         let bad = normals.iter().filter(|n| !n.is_finite() || **n == Vec3::ZERO).count();
@@ -155,10 +155,8 @@ fn drop_unused(triangles: &mut Triangles) {
         return;
     }
     let used: Vec<bool> = places.iter().map(|&place| place != UNUSED).collect();
-    let mut next = 0;
-    for place in places.iter_mut().filter(|place| **place != UNUSED) {
+    for (place, next) in places.iter_mut().filter(|place| **place != UNUSED).zip(0..) {
         *place = next;
-        next += 1;
     }
     keep(positions, &used);
     keep(normals, &used);

@@ -1,9 +1,9 @@
 //! Wavefront OBJ: the polygons, with their groups and the names of their materials.
 //!
-//! Source: "Object Files (.obj)", Advanced Visualizer manual, appendix B1 (Wavefront, 1993). `v`, `vt`, `vn`, `f`, `o`, `g`,
-//! `usemtl` are read; corners may be `v`, `v/vt`, `v//vn` or `v/vt/vn`, counted from 1 or, negative, backwards from the line.
-//! Each (object, group, material) is a part. Lines, points and free-form surfaces are counted in a note; colours of
-//! vertices, smoothing groups and material libraries are passed over.
+//! Source: "Object Files (.obj)", Advanced Visualizer manual, appendix B1 (Wavefront, 1993). `v`, `vt`, `vn`, `f`, `o`,
+//! `g`, `usemtl` are read; corners may be `v`, `v/vt`, `v//vn` or `v/vt/vn`, counted from 1 or, negative, backwards
+//! from the line. Each (object, group, material) is a part. Lines, points and free-form surfaces are counted in a note;
+//! colours of vertices, smoothing groups and material libraries are passed over.
 
 use std::collections::{BTreeMap, HashMap};
 

@@ -1,8 +1,8 @@
 //! Polygons to triangles.
 //!
-//! A fan wherever one covers the polygon, else ears are cut off one by one (G. H. Meisters, "Polygons have ears", 1975).
-//! Every corner stays a corner of some triangle, also one in the middle of a straight edge: polygons that shared an edge
-//! still share it. (Ready-made triangulators drop such corners, which would open closed solids.)
+//! A fan wherever one covers the polygon, else ears are cut off one by one (G. H. Meisters, "Polygons have ears",
+//! 1975). Every corner stays a corner of some triangle, also one in the middle of a straight edge: polygons that shared
+//! an edge still share it. (Ready-made triangulators drop such corners, which would open closed solids.)
 
 use glam::{DVec2, DVec3, Vec3};
 

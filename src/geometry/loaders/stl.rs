@@ -1,8 +1,8 @@
 //! STL: triangles and nothing else, as text or as bytes.
 //!
-//! Source: "StereoLithography Interface Specification" (3D Systems, 1989); binary: 80 bytes of anything, a count, and 50
-//! bytes for each triangle, little endian. Vertices that agree in every bit (and -0 = 0) become one, so that a closed solid
-//! is closed. Facet normals say nothing that the winding does not; those that contradict it are counted.
+//! Source: "StereoLithography Interface Specification" (3D Systems, 1989); binary: 80 bytes of anything, a count, and
+//! 50 bytes for each triangle, little endian. Vertices that agree in every bit (and -0 = 0) become one, so that a
+//! closed solid is closed. Facet normals say nothing that the winding does not; those that contradict it are counted.
 
 use glam::{DVec3, Vec3};
 

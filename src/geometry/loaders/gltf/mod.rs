@@ -1,9 +1,9 @@
 //! glTF 2.0, as text with its buffers or as GLB: meshes, the nodes that place them, cameras.
 //!
-//! Source: "glTF 2.0 Specification" (Khronos, 2021; ISO/IEC 12113:2022). Nodes of the default scene (or the first, or all
-//! nodes where there is none) are followed down; each mesh is read once, however many nodes show it. y is upwards in
-//! the format and z here: (x, y, z) becomes (x, −z, y), in the placements. Lengths are metres in the format. Materials are
-//! kept by name; skins, morph targets, animations, lights and pictures are not read.
+//! Source: "glTF 2.0 Specification" (Khronos, 2021; ISO/IEC 12113:2022). Nodes of the default scene (or the first, or
+//! all nodes where there is none) are followed down; each mesh is read once, however many nodes show it. y is upwards
+//! in the format and z here: (x, y, z) becomes (x, −z, y), in the placements. Lengths are metres in the format.
+//! Materials are kept by name; skins, morph targets, animations, lights and pictures are not read.
 
 mod accessor;
 mod container;

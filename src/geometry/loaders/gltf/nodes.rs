@@ -95,7 +95,8 @@ impl Placed<'_> {
         DAffine3 { matrix3: TURN * self.global.matrix3, translation: TURN * self.global.translation }
     }
 
-    /// A camera looks along −z of its node, y is up; scale does not matter. `None` if the transform leaves no direction.
+    /// A camera looks along −z of its node, y is up; scale does not matter. `None` if the transform leaves no
+    /// direction.
     pub fn camera(&self, index: usize, root: &Root) -> Result<Option<FileCamera>, Fault> {
         let camera = root.cameras.get(index).ok_or_else(|| Fault::new(format!("there is no camera {index}")))?;
         let name = camera.name.clone().or_else(|| self.node.name.clone()).unwrap_or_else(|| format!("camera {index}"));

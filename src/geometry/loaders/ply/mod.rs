@@ -1,8 +1,8 @@
 //! PLY, the Stanford polygon format: text, or bytes of either order.
 //!
-//! Source: G. Turk, "The PLY polygon file format" (Stanford, 1994). Of `vertex` the properties x, y, z, then nx, ny, nz and
-//! u, v (also s, t or texture_u, texture_v) are read; of `face` the list vertex_indices or vertex_index, counted from 0. Other
-//! elements and properties are passed over. The file is one part, without a material.
+//! Source: G. Turk, "The PLY polygon file format" (Stanford, 1994). Of `vertex` the properties x, y, z, then nx, ny, nz
+//! and u, v (also s, t or texture_u, texture_v) are read; of `face` the list vertex_indices or vertex_index, counted
+//! from 0. Other elements and properties are passed over. The file is one part, without a material.
 
 mod body;
 mod header;
