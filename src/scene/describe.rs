@@ -84,16 +84,20 @@ pub enum SamplerName {
     Independent,
 }
 
-/// Where the picture is seen from. How wide the camera sees is said by one of `fov`, `focal_length_mm` and
-/// `orthographic_width`.
+/// Where the picture is seen from: `position` and `look_at`, or a camera of a glTF file. How wide the camera sees is said by one of
+/// `fov`, `focal_length_mm` and `orthographic_width`, or by the file's camera.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Camera {
+    /// A glTF file whose camera this is; other keys win over what it says.
+    pub file: Option<Spanned<String>>,
+    /// The name of the file's camera; its first one unless given.
+    pub named: Option<Spanned<String>>,
     /// Where the camera stands.
-    pub position: Vector,
+    pub position: Option<Vector>,
     /// The point in the middle of the picture.
-    pub look_at: Vector,
-    /// What is up in the picture; +z unless given.
+    pub look_at: Option<Vector>,
+    /// What is up in the picture; +z, or as the file says, unless given.
     pub up: Option<Vector>,
     /// Horizontal field of view in degrees.
     pub fov: Option<Number>,
@@ -436,8 +440,8 @@ pub struct StepCut {
     pub girdle: Option<Finite>,
 }
 
-/// Triangles from an OBJ, PLY, STL or glTF file. If they are closed, they are a solid. A part of the file whose material
-/// `[replace]` names gets that, others the object's material, or else the one that the file names, if there is one of that name.
+/// Triangles from an OBJ, PLY, STL or glTF file. If they are closed, they are a solid. Without a material of the object each part
+/// has the one that `[replace]` gives for its material in the file, or else the one that the file names.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MeshFile {

@@ -1,46 +1,41 @@
 //! The camera: where it stands, where it looks, how wide it sees and what is sharp.
 
-use super::{Resolver, vector};
+use super::Resolver;
+use super::view::View;
 use crate::camera::{Aperture, Camera, CameraError, Lens};
 use crate::geometry::World;
+use crate::geometry::loaders::Projection;
 use crate::scene::describe;
 use crate::scene::{Filling, Object, SceneError};
 use std::ops::Range;
 use toml::Spanned;
 
-/// Up in the picture unless the scene says otherwise.
-const UP: [f64; 3] = [0.0, 0.0, 1.0];
-
 /// Of full frame.
 const SENSOR_WIDTH_MM: f64 = 36.0;
 
 impl Resolver<'_> {
-    pub fn camera(&self, described: &Spanned<describe::Camera>, size: [u32; 2]) -> Result<Camera, SceneError> {
-        let camera = described.get_ref();
-        let lens = self.lens(camera, described.span())?;
-        let [position, look_at] = [&camera.position, &camera.look_at].map(|v| vector(v.get_ref().values()));
-        let up = camera.up.as_ref().map_or(UP, |up| up.get_ref().values());
-        let aperture = self.aperture(described, (look_at - position).length())?;
-        Camera::new(position, look_at, vector(up), lens, aperture, size)
-            .map_err(|error| self.text.error(&place(&error, described), error))
+    pub fn camera(
+        &self,
+        described: &Spanned<describe::Camera>,
+        view: &View,
+        size: [u32; 2],
+    ) -> Result<Camera, SceneError> {
+        let lens = self.lens(described, view, size)?;
+        let aperture = self.aperture(described, view)?;
+        Camera::new(view.position, view.look_at, view.up, lens, aperture, size)
+            .map_err(|error| self.text.error(&place(&error, described, view), error))
     }
 
     /// What the camera stands in.
-    pub fn around_camera(
-        &self,
-        described: &Spanned<describe::Camera>,
-        world: &World,
-        objects: &[Object],
-    ) -> Result<Vec<Filling>, SceneError> {
-        let position = &described.get_ref().position;
-        self.around(vector(position.get_ref().values()), world, objects).map_err(|inside| {
+    pub fn around_camera(&self, view: &View, world: &World, objects: &[Object]) -> Result<Vec<Filling>, SceneError> {
+        self.around(view.position, world, objects).map_err(|inside| {
             let message = format!("the camera stands inside `{}`, which lets no light through", objects[inside].name);
-            self.text.error(&position.span(), message).help("move it out of the object")
+            self.text.error(&view.position_at, message).help("move it out of the object")
         })
     }
 
     /// The opening in scene units; `None` without `f_number`, with which everything is in focus.
-    fn aperture(&self, described: &Spanned<describe::Camera>, to_look_at: f32) -> Result<Option<Aperture>, SceneError> {
+    fn aperture(&self, described: &Spanned<describe::Camera>, view: &View) -> Result<Option<Aperture>, SceneError> {
         let camera = described.get_ref();
         let Some(f_number) = &camera.f_number else {
             let spans = [camera.focus_distance.as_ref().map(Spanned::span), camera.blades.as_ref().map(Spanned::span)];
@@ -61,13 +56,20 @@ impl Resolver<'_> {
             error.help("add `meters_per_unit = …` at the top, 0.001 if the scene is in millimetres")
         })?;
         let radius = focal_length.get_ref() / (2.0 * n) * 1e-3 / metres;
+        let to_look_at = (view.look_at - view.position).length();
         let distance = camera.focus_distance.as_ref().map_or(f64::from(to_look_at), |distance| *distance.get_ref());
         let blades = camera.blades.as_ref().map_or(0, |blades| *blades.get_ref());
         let aperture = Aperture::new(radius, blades, distance);
-        aperture.map(Some).map_err(|error| self.text.error(&place(&error, described), error))
+        aperture.map(Some).map_err(|error| self.text.error(&place(&error, described, view), error))
     }
 
-    fn lens(&self, camera: &describe::Camera, span: Range<usize>) -> Result<Lens, SceneError> {
+    fn lens(
+        &self,
+        described: &Spanned<describe::Camera>,
+        view: &View,
+        [width, height]: [u32; 2],
+    ) -> Result<Lens, SceneError> {
+        let camera = described.get_ref();
         if let Some(width) = &camera.orthographic_width {
             let others = [&camera.fov, &camera.focal_length_mm, &camera.sensor_width_mm];
             return match others.into_iter().flatten().next() {
@@ -83,10 +85,13 @@ impl Resolver<'_> {
                 focal_length_mm: *focal.get_ref(),
                 sensor_width_mm: sensor.as_ref().map_or(SENSOR_WIDTH_MM, |width| *width.get_ref()),
             }),
-            (None, None, _) => {
-                let help = "add `fov = …` in degrees, `focal_length_mm = …` or `orthographic_width = …`";
-                Err(self.text.error(&span, "how wide does the camera see?").help(help))
-            }
+            (None, None, _) => match &view.projection {
+                Some(projection) => Ok(filed(projection, f64::from(width) / f64::from(height))),
+                None => {
+                    let help = "add `fov = …` in degrees, `focal_length_mm = …` or `orthographic_width = …`";
+                    Err(self.text.error(&described.span(), "how wide does the camera see?").help(help))
+                }
+            },
             (Some(_), Some(focal), _) => {
                 Err(self.text.error(&focal.span(), "`fov` and `focal_length_mm` both say how wide the camera sees"))
             }
@@ -98,11 +103,20 @@ impl Resolver<'_> {
     }
 }
 
+/// The lens of a file's camera.
+fn filed(projection: &Projection, aspect_ratio: f64) -> Lens {
+    match (projection.horizontal_fov_degrees(aspect_ratio), *projection) {
+        (Some(fov), _) => Lens::FieldOfView(fov),
+        (None, Projection::Orthographic { width, .. }) => Lens::Parallel { width },
+        (None, Projection::Perspective { vertical_fov_degrees, .. }) => Lens::FieldOfView(vertical_fov_degrees),
+    }
+}
+
 /// Where the value stands that an error is about.
-fn place(error: &CameraError, described: &Spanned<describe::Camera>) -> Range<usize> {
+fn place(error: &CameraError, described: &Spanned<describe::Camera>, view: &View) -> Range<usize> {
     let camera = described.get_ref();
     let number = match error {
-        CameraError::NoDirection => return camera.look_at.span(),
+        CameraError::NoDirection => return view.look_at_at.clone(),
         CameraError::UpAlongView => return camera.up.as_ref().map_or(described.span(), Spanned::span),
         CameraError::FieldOfView(_) => &camera.fov,
         CameraError::Length { name: "sensor_width_mm", .. } => &camera.sensor_width_mm,

@@ -1,7 +1,7 @@
 //! Mesh files: each read once, however many objects show it.
 
 use super::Resolver;
-use crate::geometry::loaders::{self, MeshFile};
+use crate::geometry::loaders::{self, FileCamera, MeshFile};
 use crate::geometry::{Mesh, Placed};
 use crate::scene::SceneError;
 use crate::scene::describe;
@@ -10,6 +10,7 @@ use glam::Affine3A;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
+use toml::Spanned;
 
 /// By path and crease angle (its bits).
 pub type Meshes = BTreeMap<(PathBuf, Option<u64>), Arc<Loaded>>;
@@ -19,6 +20,12 @@ pub type Meshes = BTreeMap<(PathBuf, Option<u64>), Arc<Loaded>>;
 pub struct Loaded {
     file: MeshFile,
     meshes: Vec<Arc<Mesh>>,
+}
+
+impl Loaded {
+    pub fn cameras(&self) -> &[FileCamera] {
+        &self.file.cameras
+    }
 }
 
 /// A part of a file, somewhere.
@@ -32,7 +39,8 @@ pub struct Piece {
 impl Resolver<'_> {
     /// The pieces of a mesh file that an object shows, where the file has them.
     pub fn pieces(&mut self, described: &describe::MeshFile) -> Result<Vec<Piece>, SceneError> {
-        let loaded = self.loaded(described)?;
+        let crease = described.crease_angle.as_ref().map(|angle| self.crease(angle)).transpose()?;
+        let loaded = self.loaded(&described.file, crease)?;
         let wanted = described.part.as_ref();
         let mut pieces = Vec::new();
         for placement in &loaded.file.placements {
@@ -65,16 +73,16 @@ impl Resolver<'_> {
         }
     }
 
-    fn loaded(&mut self, described: &describe::MeshFile) -> Result<Arc<Loaded>, SceneError> {
-        let crease = described.crease_angle.as_ref().map(|angle| self.crease(angle)).transpose()?;
-        let path = self.text.base().join(described.file.get_ref());
+    /// A file ready for rays; with `crease` in degrees, smoothed.
+    pub fn loaded(&mut self, file: &Spanned<String>, crease: Option<f64>) -> Result<Arc<Loaded>, SceneError> {
+        let path = self.text.base().join(file.get_ref());
         let key = (path, crease.map(f64::to_bits));
         if let Some(known) = self.meshes.get(&key) {
             return Ok(known.clone());
         }
-        let span = described.file.span();
+        let (span, name) = (file.span(), file.get_ref());
         let mut file = loaders::load(&key.0).map_err(|error| self.text.error(&span, error))?;
-        self.warnings.extend(file.notes.iter().map(|note| format!("{}: {note}", described.file.get_ref())));
+        self.warnings.extend(file.notes.iter().map(|note| format!("{name}: {note}")));
         let ready = |part: &mut loaders::Part| {
             let triangles = std::mem::take(&mut part.triangles);
             Mesh::new(match crease {

@@ -10,6 +10,7 @@ mod provenance;
 mod settings;
 mod shapes;
 mod solids;
+mod view;
 
 pub use settings::Overrides;
 
@@ -91,8 +92,9 @@ impl Resolver<'_> {
             emitters.push(self.sun(sun.get_ref(), f64::from(world.bounds().size().length()) / 2.0)?);
         }
         self.solids(&world, &mut objects);
-        let camera = self.camera(&file.camera, [settings.width, settings.height])?;
-        let around_camera = self.around_camera(&file.camera, &world, &objects)?;
+        let view = self.view(&file.camera)?;
+        let camera = self.camera(&file.camera, &view, [settings.width, settings.height])?;
+        let around_camera = self.around_camera(&view, &world, &objects)?;
         let picture = self.picture(&file.picture)?;
         let lights = Lights::new(emitters, environment, objects.len());
         self.warn_of_darkness();

@@ -38,9 +38,10 @@ impl Resolver<'_> {
             let object = described.get_ref();
             let name = object.name.clone().unwrap_or_else(|| format!("object {}", index + 1));
             for piece in self.pieces_of(object, &name)? {
-                let replacement = piece.material.as_deref().and_then(|named| replace.get_key_value(named));
+                let named = piece.material.as_deref().filter(|_| object.material.is_none());
+                let replacement = named.and_then(|named| replace.get_key_value(named));
                 replaced.extend(replacement.map(|(name, _)| name.get_ref().as_str()));
-                let material = replacement.map(|(_, material)| material).or(object.material.as_ref());
+                let material = object.material.as_ref().or(replacement.map(|(_, material)| material));
                 self.object(&mut all, described, piece, material)?;
             }
         }

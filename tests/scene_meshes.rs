@@ -1,0 +1,220 @@
+//! Mesh files in scenes: which parts stand where, of which material, seen by whose camera.
+
+mod common;
+
+use glam::Vec3;
+use spectrel::geometry::{Ray, Shape};
+use spectrel::scene::{Overrides, Scene, SceneError, Surface, Text, resolve};
+use std::fs;
+use std::path::Path;
+
+/// Two cubes of edge 2 around x = ±2, each of a material of its own.
+fn cubes() -> String {
+    let mut text = String::new();
+    for (name, material, x) in [("Left", "Metal", -2.0), ("Right", "Stone", 2.0)] {
+        text += &format!("o {name}\nusemtl {material}\n");
+        for corner in 0..8 {
+            let at = |bit: u32| if corner >> bit & 1 == 0 { -1.0 } else { 1.0 };
+            text += &format!("v {} {} {}\n", x + at(0), at(1), at(2));
+        }
+        for face in [[1, 3, 4, 2], [5, 6, 8, 7], [1, 2, 6, 5], [3, 7, 8, 4], [1, 5, 7, 3], [2, 4, 8, 6]] {
+            text += "f";
+            face.iter().for_each(|corner| text += &format!(" {}", corner - 9));
+            text += "\n";
+        }
+    }
+    text
+}
+
+const HEAD: &str = "meters_per_unit = 0.001\n[render]\nwidth = 40\nheight = 20\nsamples = 4\n\
+    [environment.constant]\nspectrum = \"D65\"\nluminance = 100\n";
+const CAMERA: &str = "[camera]\nposition = [0, -20, 0]\nlook_at = [0, 0, 0]\nfov = 40\n";
+
+fn resolved_in(folder: &Path, scene: &str) -> Result<Scene, SceneError> {
+    resolve(Text::new(folder.join("scene.toml"), scene), &common::library(), &Overrides::default())
+}
+
+fn resolved(more: &str) -> Scene {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("cubes.obj"), cubes()).unwrap();
+    resolved_in(folder.path(), &[HEAD, CAMERA, more].concat()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The name and the material of what a ray towards −z meets at (x, y).
+fn met(scene: &Scene, x: f32, y: f32) -> Option<(String, String)> {
+    let hit = scene.world.closest(&Ray::free(Vec3::new(x, y, 50.0), -Vec3::Z), f32::INFINITY)?;
+    let object = scene.object(hit.shape);
+    Some((object.name.clone(), object.material.clone()))
+}
+
+fn pair(name: &str, material: &str) -> Option<(String, String)> {
+    Some((name.to_owned(), material.to_owned()))
+}
+
+#[test]
+fn materials_of_a_file_are_replaced_by_ours() {
+    let scene = resolved(
+        "[replace]\n\"Metal\" = \"gold\"\n\"Stone\" = \"diamond\"\n[[objects]]\nname = \"pair\"\nshape.mesh = { file = \"cubes.obj\" }\n",
+    );
+    assert_eq!(met(&scene, -2.0, 0.3), pair("pair: Left", "gold"));
+    assert_eq!(met(&scene, 2.0, 0.3), pair("pair: Right", "diamond"));
+    assert_eq!(met(&scene, 0.0, 0.0), None);
+    assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
+    assert_eq!(scene.files.len(), 1);
+}
+
+#[test]
+fn an_objects_own_material_goes_before_those_of_its_file() {
+    let scene = resolved(
+        "[replace]\n\"Stone\" = \"diamond\"\n[[objects]]\nmaterial = \"copper\"\nshape.mesh = { file = \"cubes.obj\" }\n",
+    );
+    assert_eq!(met(&scene, 2.0, 0.3), pair("object 1: Right", "copper"));
+    assert!(scene.warnings[0].contains("no mesh of this scene has a material `Stone`"), "{:?}", scene.warnings);
+}
+
+#[test]
+fn a_part_is_an_object_of_its_own() {
+    let scene = resolved(
+        "[[objects]]\nname = \"ring\"\nmaterial = \"silver\"\nshape.mesh = { file = \"cubes.obj\", part = \"Right\" }\n\
+         transform = { translate = [-2, 0, 0], scale = 1 }\n",
+    );
+    assert_eq!(scene.objects.len(), 1);
+    assert_eq!(met(&scene, 0.9, 0.9), pair("ring", "silver"));
+    assert_eq!(met(&scene, 1.1, 0.0), None);
+}
+
+#[test]
+fn copies_share_one_mesh() {
+    let scene = resolved(
+        "[[objects]]\nname = \"bead\"\nmaterial = \"silver\"\nshape.mesh = { file = \"cubes.obj\", part = \"Left\" }\n\
+         transform = { translate = [2, 0, 0] }\n\
+         copies = [{ translate = [-5, 0, 0] }, { translate = [5, 0, 0], rotate = [0, 0, 45] }, { translate = [0, 8, 0], scale = 2 }]\n",
+    );
+    assert_eq!(met(&scene, -5.0, 0.9), pair("bead #1", "silver"));
+    assert_eq!(met(&scene, 5.0, 1.3), pair("bead #2", "silver"));
+    assert_eq!(met(&scene, 5.9, 0.9), None, "turned by 45° its corner is on the axis");
+    assert_eq!(met(&scene, 1.9, 9.9), pair("bead #3", "silver"));
+    assert_eq!(met(&scene, 0.0, 0.0), None, "copies stand instead of the object");
+    let meshes: Vec<_> = scene.world.shapes().iter().filter_map(mesh_of).collect();
+    assert!(meshes.len() == 3 && meshes.iter().all(|mesh| std::ptr::eq(*mesh, meshes[0])));
+    let stones = resolved(
+        "[[objects]]\nname = \"pavé\"\nmaterial = \"diamond\"\nshape.brilliant = { diameter = 1 }\n\
+         copies = [{ translate = [-1, 0, 0] }, { translate = [1, 0, 0] }]\n",
+    );
+    assert_eq!(met(&stones, 1.0, 0.1), pair("pavé #2", "diamond"));
+}
+
+fn mesh_of(shape: &Shape) -> Option<*const spectrel::geometry::Mesh> {
+    match shape {
+        Shape::Mesh(placed) => Some(std::sync::Arc::as_ptr(placed.mesh())),
+        _ => None,
+    }
+}
+
+#[test]
+fn a_dielectric_with_a_hole_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = cubes();
+    let open: Vec<&str> = text.lines().filter(|line| *line != "f -8 -6 -5 -7").collect();
+    fs::write(folder.path().join("open.obj"), open.join("\n")).unwrap();
+    let object = |material: &str| {
+        let scene = format!(
+            "[[objects]]\nname = \"vase\"\nmaterial = \"{material}\"\nshape.mesh = {{ file = \"open.obj\", part = \"Left\" }}\n"
+        );
+        resolved_in(folder.path(), &[HEAD, CAMERA, &scene].concat()).unwrap()
+    };
+    let glass = object("SF11");
+    let Shape::Mesh(placed) = &glass.world.shapes()[0] else { panic!("a mesh") };
+    let open_edges = placed.mesh().surroundings().open_edges;
+    assert_eq!(open_edges, 4);
+    let warning = format!("`vase` is not closed: {open_edges} of its edges");
+    assert!(glass.warnings.iter().any(|said| said.starts_with(&warning)), "{:?}", glass.warnings);
+    assert!(object("gold").warnings.is_empty(), "metals need no inside");
+}
+
+#[test]
+fn overlapping_media_are_told_and_ranked() {
+    let scene = |priority: &str| {
+        resolved(&format!(
+            "[[objects]]\nname = \"glass\"\nmaterial = \"SF11\"\nshape.box = {{ size = [4, 4, 4] }}\n{priority}\n\
+             [[objects]]\nname = \"water\"\nmaterial = \"water\"\nshape.sphere = {{ center = [2, 0, 0], radius = 1 }}\n\
+             [[objects]]\nname = \"stone\"\nmaterial = \"diamond\"\nshape.box = {{ size = [1, 1, 1] }}\n"
+        ))
+    };
+    let silent = scene("");
+    assert_eq!(silent.warnings.len(), 1, "{:?}", silent.warnings);
+    assert!(silent.warnings[0].starts_with("`glass` and `water` overlap: where both are, `water` fills the space"));
+    let rank = |scene: &Scene| scene.objects.iter().map(|object| object.rank).collect::<Vec<_>>();
+    assert_eq!(rank(&silent), [1, 2, 3], "smaller ones go before");
+    let said = scene("priority = 1");
+    assert!(said.warnings.is_empty(), "{:?}", said.warnings);
+    assert_eq!(rank(&said), [3, 1, 2]);
+}
+
+/// A glTF file with one triangle and a camera that looks along +y from (1, −5, 2) of our axes.
+fn filmed() -> (String, Vec<u8>) {
+    let corners = [[0.0f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let bytes: Vec<u8> = corners.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
+    let text = r#"{ "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [0, 1] }],
+        "nodes": [{ "mesh": 0 }, { "camera": 0, "name": "Close", "translation": [1, 2, 5] }],
+        "cameras": [{ "name": "Close", "type": "perspective", "perspective": { "yfov": 0.5, "znear": 0.1 } }],
+        "meshes": [{ "name": "Tri", "primitives": [{ "attributes": { "POSITION": 0 } }] }],
+        "accessors": [{ "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0] }],
+        "bufferViews": [{ "buffer": 0, "byteLength": 36 }], "buffers": [{ "uri": "tri.bin", "byteLength": 36 }] }"#;
+    (text.to_owned(), bytes)
+}
+
+#[test]
+fn a_files_camera_is_ours() {
+    let folder = tempfile::tempdir().unwrap();
+    let (text, bytes) = filmed();
+    fs::write(folder.path().join("tri.gltf"), text).unwrap();
+    fs::write(folder.path().join("tri.bin"), bytes).unwrap();
+    let object = "[[objects]]\nmaterial = \"gold\"\nshape.mesh = { file = \"tri.gltf\" }\n";
+    let camera = |keys: &str| resolved_in(folder.path(), &[HEAD, "[camera]\n", keys, object].concat());
+    let scene = camera("file = \"tri.gltf\"\n").unwrap();
+    let middle = scene.camera.ray(20.0, 10.0, || [0.5, 0.5]);
+    assert!(
+        (middle.origin - Vec3::new(1.0, -5.0, 2.0)).length() < 1e-6 && (middle.direction - Vec3::Y).length() < 1e-6
+    );
+    // The upper edge is half of yfov above the middle.
+    let top = scene.camera.ray(20.0, 0.0, || [0.5, 0.5]);
+    assert!((top.direction.z.atan2(top.direction.y) - 0.25).abs() < 1e-5);
+    let named = camera("file = \"tri.gltf\"\nnamed = \"Close\"\nposition = [0, -9, 0]\nfov = 90\n").unwrap();
+    assert!((named.camera.ray(20.0, 10.0, || [0.5, 0.5]).origin - Vec3::new(0.0, -9.0, 0.0)).length() < 1e-6);
+    let left = named.camera.ray(0.0, 10.0, || [0.5, 0.5]).direction;
+    assert!((left.x.abs() - left.y).abs() < 1e-5);
+    for (keys, says) in [
+        ("file = \"tri.gltf\"\nnamed = \"Clse\"\n", "did you mean `Close`?"),
+        ("named = \"Close\"\nposition = [0, 0, 1]\nlook_at = [0, 0, 0]\nfov = 30\n", "`named` goes with `file`"),
+        ("fov = 30\n", "missing `position`"),
+    ] {
+        let error = camera(keys).unwrap_err().to_string();
+        assert!(error.contains(says), "{error}");
+    }
+}
+
+/// The same scene by a box and by a closed mesh of it has the same picture but for noise: here without noise, one bit of it.
+#[test]
+fn gold_cubes_are_gold_cubes() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("cubes.obj"), cubes()).unwrap();
+    let look = |shape: &str| {
+        let scene = [HEAD, CAMERA, "[[objects]]\nmaterial = \"gold\"\n", shape].concat();
+        common::mean(&common::film(&resolved_in(folder.path(), &scene).unwrap()))
+    };
+    let mesh = look("shape.mesh = { file = \"cubes.obj\", part = \"Left\" }\n");
+    let cuboid = look("shape.box = { center = [-2, 0, 0], size = [2, 2, 2] }\n");
+    for (a, b) in mesh.iter().zip(cuboid) {
+        assert!((a / b - 1.0).abs() < 1e-4, "{mesh:?} {cuboid:?}");
+    }
+    assert!(matches!(
+        resolved_in(
+            folder.path(),
+            &[HEAD, CAMERA, "[[objects]]\nmaterial = \"gold\"\nshape.mesh = { file = \"cubes.obj\" }\n"].concat()
+        )
+        .unwrap()
+        .surfaces[0],
+        Surface::Conductor { .. }
+    ));
+}
