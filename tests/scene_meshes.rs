@@ -116,7 +116,7 @@ fn a_dielectric_with_a_hole_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let text = cubes();
     let open: Vec<&str> = text.lines().filter(|line| *line != "f -8 -6 -5 -7").collect();
-    fs::write(folder.path().join("open.obj"), open.join("\n")).unwrap();
+    fs::write(folder.path().join("open.obj"), open.join("\n") + "\n").unwrap();
     let object = |material: &str| {
         let scene = format!(
             "[[objects]]\nname = \"vase\"\nmaterial = \"{material}\"\nshape.mesh = {{ file = \"open.obj\", part = \"Left\" }}\n"
@@ -129,7 +129,8 @@ fn a_dielectric_with_a_hole_is_named() {
     assert_eq!(open_edges, 4);
     let warning = format!("`vase` is not closed: {open_edges} of its edges");
     assert!(glass.warnings.iter().any(|said| said.starts_with(&warning)), "{:?}", glass.warnings);
-    assert!(object("gold").warnings.is_empty(), "metals need no inside");
+    let gold = object("gold").warnings;
+    assert!(gold.is_empty(), "metals need no inside: {gold:?}");
 }
 
 #[test]
