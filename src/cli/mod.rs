@@ -1,6 +1,7 @@
 //! The command line: one file a command.
 
 mod inspect;
+mod layers;
 mod list;
 mod memory;
 mod progress;

@@ -1,11 +1,12 @@
 //! `spectrel render`: a scene becomes pictures.
 
+use super::layers::{LayerArgs, Picture, Plan};
 use super::progress::Shown;
-use super::{SceneArgs, memory, show};
-use crate::film::{Develop, Developed, Exposure, Film, Gamut, Window, fnv1a_64};
+use super::{SceneArgs, show};
+use crate::film::{Develop, Developed, Exposure, Film, Gamut, Layers, Window, fnv1a_64};
 use crate::fresnel::FresnelModel;
-use crate::image::{self, Bits, ExrSpace, Metadata, Options};
-use crate::render::{Kernel, render};
+use crate::image::{self, Bits, Encoded, ExrSpace, Extra, Metadata, Options};
+use crate::render::{Kernel, render_layers};
 use crate::scene::describe::{ExposureValue, GamutName};
 use crate::scene::{Needs, Overrides, Scene, SceneError, resolve};
 use crate::spectrum::RgbSpace;
@@ -54,6 +55,8 @@ pub struct RenderArgs {
     /// Write 16-bit floats into EXR files
     #[arg(long)]
     exr_half: bool,
+    #[command(flatten)]
+    layers: LayerArgs,
     /// Print nothing but warnings and errors
     #[arg(long, short)]
     quiet: bool,
@@ -125,52 +128,76 @@ impl RenderArgs {
 pub fn run(args: &RenderArgs) -> Result<(), SceneError> {
     let outputs = args.outputs();
     outputs.iter().try_for_each(|path| image::check_writable(path)).map_err(SceneError::new)?;
+    let plan = args.layers.plan(&outputs)?;
     let library = args.scene.library.open()?;
     let scene = resolve(args.scene.read()?, &library, &args.overrides())?;
     scene.warnings.iter().for_each(show::warning);
-    let needs = Needs::of(&scene);
-    let film = expose(&scene, &needs, args)?;
-    let developed = film.develop(&development(&scene)).map_err(SceneError::new)?;
+    let layers = expose(&scene, &plan, args)?;
+    let developed = layers.film().develop(&development(&scene)).map_err(SceneError::new)?;
     report(&developed, args.quiet);
-    write(&outputs, &developed, &metadata(&scene, &film, &developed), args)
+    Job { args, plan: &plan, scene: &scene }.write(&outputs, &layers, &developed)
 }
 
-/// Writes all pictures, or none if one of them cannot be encoded.
-fn write(paths: &[PathBuf], developed: &Developed, metadata: &Metadata, args: &RenderArgs) -> Result<(), SceneError> {
-    let encode = |path: &PathBuf| image::encode(image::Format::of(path)?, developed, &args.options(), metadata);
-    let files = paths.iter().map(encode).collect::<Result<Vec<_>, _>>().map_err(SceneError::new)?;
-    for (path, file) in paths.iter().zip(files) {
-        image::atomic::write(path, &file.bytes).map_err(SceneError::new)?;
-        if file.beyond_half > 0 {
-            show::warning(format_args!("{} channels are beyond the range of 16-bit floats", file.beyond_half));
+/// A render that is done.
+struct Job<'a> {
+    args: &'a RenderArgs,
+    plan: &'a Plan,
+    scene: &'a Scene,
+}
+
+impl Job<'_> {
+    /// Writes all pictures, or none if one of them cannot be encoded.
+    fn write(&self, paths: &[PathBuf], layers: &Layers, developed: &Developed) -> Result<(), SceneError> {
+        let files = paths.iter().map(|path| self.encode(path, layers, developed)).collect::<Result<Vec<_>, _>>()?;
+        for (path, file) in paths.iter().zip(files) {
+            image::atomic::write(path, &file.bytes).map_err(SceneError::new)?;
+            if file.beyond_half > 0 {
+                show::warning(format_args!("{} channels are beyond the range of 16-bit floats", file.beyond_half));
+            }
+            if !self.args.quiet {
+                show::note(format_args!("wrote {} ({:.0} kB)", path.display(), file.bytes.len() as f64 / 1e3));
+            }
         }
-        if !args.quiet {
-            show::note(format_args!("wrote {} ({:.0} kB)", path.display(), file.bytes.len() as f64 / 1e3));
-        }
+        Ok(())
     }
-    Ok(())
+
+    fn encode(&self, path: &Path, layers: &Layers, developed: &Developed) -> Result<Encoded, SceneError> {
+        let (format, options) = (image::Format::of(path).map_err(SceneError::new)?, self.args.options());
+        let metadata = self.plan.describe(path, self.scene, &metadata(self.scene, layers.film(), developed))?;
+        let extra = match format {
+            image::Format::Png => Extra::default(),
+            image::Format::Exr => {
+                let matrix = development(self.scene).matrix(developed.ev);
+                let picture = Picture::new(developed, matrix, options.exr_space)?;
+                self.plan.extra(path, self.scene, layers, &picture)
+            }
+        };
+        image::encode_with(format, developed, &extra, &options, &metadata).map_err(SceneError::new)
+    }
 }
 
 /// Renders the scene, on a thread pool of its own, until it is done or interrupted.
-fn expose(scene: &Scene, needs: &Needs, args: &RenderArgs) -> Result<Film, SceneError> {
+fn expose(scene: &Scene, plan: &Plan, args: &RenderArgs) -> Result<Layers, SceneError> {
     let settings = &scene.settings;
     let window = window(settings.crop);
-    memory::check(window)?;
-    let mut film = Film::new([settings.width, settings.height], window).map_err(SceneError::new)?;
+    let mut layers = plan.layers(scene, window)?;
     let threads = usize::from(args.threads.unwrap_or(0));
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(SceneError::new)?;
     let cancel = cancel_on_interrupt();
     let samples = u64::from(settings.samples);
     let progress = Shown::new(window.pixel_count() * samples, args.quiet);
     let started = Instant::now();
-    let kernel = Kernel::new(scene, needs);
-    pool.install(|| render(&kernel, &mut film, 0..samples, &progress, &cancel));
+    let needs = Needs::of(scene);
+    let kernel = Kernel::new(scene, &needs);
+    let recorder = plan.recorder(&kernel, scene, &needs);
+    pool.install(|| render_layers(&recorder, &mut layers, 0..samples, &progress, &cancel));
     progress.finish();
     if cancel.load(Ordering::Relaxed) {
         show::warning("interrupted: writing what there is");
     }
     if !args.quiet {
         let seconds = started.elapsed().as_secs_f64();
+        let film = layers.film();
         let rate = film.samples() as f64 / seconds / 1e6;
         let each = film.samples() / window.pixel_count();
         let Window { width, height, .. } = window;
@@ -178,7 +205,7 @@ fn expose(scene: &Scene, needs: &Needs, args: &RenderArgs) -> Result<Film, Scene
             "{width} × {height} pixels, {each} samples each: {seconds:.1} s, {rate:.2} M samples/s"
         ));
     }
-    Ok(film)
+    Ok(layers)
 }
 
 fn window([x0, y0, x1, y1]: [u32; 4]) -> Window {
