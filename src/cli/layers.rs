@@ -84,7 +84,8 @@ impl Plan {
     pub fn layers(&self, scene: &Scene, window: Window) -> Result<Layers, SceneError> {
         let least = crate::film::REPLICATES as u32;
         if self.has(Aov::Variance) && scene.settings.samples < least {
-            let message = format!("the variance compares {least} replicates of each pixel: it needs --spp {least} or more");
+            let message =
+                format!("the variance compares {least} replicates of each pixel: it needs --spp {least} or more");
             return Err(SceneError::new(message));
         }
         let channels = 3 * self.aovs.len() + self.wanted().bands;
@@ -125,7 +126,8 @@ impl Plan {
         }
         if self.has(Aov::Depth) || self.has(Aov::Object) {
             let hits = first_hits(scene, layers.film().window());
-            let channel = |name, value: fn(&Option<FirstHit>) -> f32| Channel::new(name, hits.iter().map(value).collect());
+            let channel =
+                |name, value: fn(&Option<FirstHit>) -> f32| Channel::new(name, hits.iter().map(value).collect());
             let depth = self.has(Aov::Depth).then(|| channel("depth.Z", |hit| hit.map_or(FAR, |hit| hit.depth)));
             let number = |hit: &Option<FirstHit>| hit.map_or(0.0, |hit| (hit.object + 1) as f32);
             let object = self.has(Aov::Object).then(|| channel("object.id", number));

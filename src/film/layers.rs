@@ -3,8 +3,8 @@
 //! Every layer is made of exact sums, so that layers are as independent of threads, windows and cuts as the film is. What is
 //! not asked for takes no memory.
 
-use super::{Features, Film, FilmError, Pixel, Replicates, Window};
 use super::fixed::{sum_to_f64, sum_units};
+use super::{Features, Film, FilmError, Pixel, Replicates, Window};
 
 /// Which layers a film is to have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -22,13 +22,12 @@ impl Pixel {
     /// Bytes of a pixel in a file.
     pub const BYTES: usize = 104;
 
-    /// Adds one sample in cd/m². A sample with a channel that is no finite number is counted as rejected and not added:
-    /// the answer is then false.
+    /// Adds one sample in cd/m². A sample with a channel that is no finite number is counted as rejected and not added.
     #[inline]
-    pub fn add(&mut self, xyz: [f32; 3]) -> bool {
+    pub fn add(&mut self, xyz: [f32; 3]) {
         if !xyz.iter().all(|c| c.is_finite()) {
             self.rejected = self.rejected.saturating_add(1);
-            return false;
+            return;
         }
         self.count = self.count.saturating_add(1);
         for (channel, x) in xyz.into_iter().enumerate() {
@@ -37,7 +36,6 @@ impl Pixel {
             self.sums[channel] = self.sums[channel].wrapping_add(sum_units(x));
             self.squares[channel] = self.squares[channel].saturating_add(square_units(x));
         }
-        true
     }
 
     /// Adds the samples of another pixel.

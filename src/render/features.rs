@@ -16,9 +16,7 @@ use crate::bsdf::conductor::MIRROR_ALPHA;
 use crate::bsdf::dielectric::reflect;
 use crate::geometry::{Hit, Ray, Side};
 use crate::scene::{MediumId, Needs, Scene, Surface};
-use crate::spectrum::{
-    Daylight, Lanes, Matrix3, NODE_COUNT, Nodes, RgbSpace, Spectrum, SpectrumId, Xyz, bradford,
-};
+use crate::spectrum::{Daylight, Lanes, Matrix3, NODE_COUNT, Nodes, RgbSpace, Spectrum, SpectrumId, Xyz, bradford};
 use glam::Vec3;
 
 /// Mirrors that are followed one after another.

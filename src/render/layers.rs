@@ -41,7 +41,9 @@ impl<'a> Recorder<'a> {
     fn sample<const N: usize>(&self, row: &mut LayersRow, at: usize, pixel: [u32; 2], sampler: Sampler, index: u64) {
         let traced = self.kernel.trace::<N>(pixel, sampler);
         let xyz = self.kernel.xyz(&traced);
-        if !row.pixels[at].add(xyz) {
+        row.pixels[at].add(xyz);
+        // The film has counted it as rejected; so it does not count for the layers.
+        if !xyz.iter().all(|c| c.is_finite()) {
             return;
         }
         if let Some(replicates) = row.replicates.get_mut(at) {
