@@ -7,29 +7,28 @@ use spectrel::film::{Layers, Wanted, Window};
 use spectrel::render::{FirstHit, Guides, Kernel, Recorder, first_hits, render_layers};
 use spectrel::scene::{Needs, Overrides, Scene};
 use spectrel::spectrum::{Bins, Matrix3, RgbSpace};
-use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 
 const SCENE: &str = include_str!("data/reproducible.toml");
 const ALL: Wanted = Wanted { features: true, replicates: true, bands: 41 };
 
 /// A scene's layers over some windows of it and ranges of samples, one after another.
-fn layers_of(scene: &Scene, wanted: Wanted, window: Window, ranges: &[Range<u64>]) -> Layers {
+fn layers_of(scene: &Scene, wanted: Wanted, window: Window, ranges: &[[u64; 2]]) -> Layers {
     let needs = Needs::of(scene);
     let kernel = Kernel::new(scene, &needs);
     let guides = wanted.features.then(|| Guides::first_hit(scene, &needs, RgbSpace::Srgb));
     let bins = (wanted.bands > 0).then(Bins::default);
     let recorder = Recorder::new(&kernel, guides, bins.as_ref());
     let mut layers = Layers::new([scene.settings.width, scene.settings.height], window, wanted).expect("memory");
-    for range in ranges {
-        render_layers(&recorder, &mut layers, range.clone(), &(), &AtomicBool::new(false));
+    for &[first, end] in ranges {
+        render_layers(&recorder, &mut layers, first..end, &(), &AtomicBool::new(false));
     }
     layers
 }
 
 fn whole(scene: &Scene, wanted: Wanted) -> Layers {
     let window = Window::full(scene.settings.width, scene.settings.height);
-    layers_of(scene, wanted, window, &[0..u64::from(scene.settings.samples)])
+    layers_of(scene, wanted, window, &[[0, u64::from(scene.settings.samples)]])
 }
 
 #[test]
@@ -50,9 +49,9 @@ fn layers_are_the_same_for_any_threads_ranges_and_windows() {
         assert!(pool.install(|| whole(&scene, ALL)) == expected, "{threads} threads");
     }
     let full = Window::full(48, 32);
-    assert!(layers_of(&scene, ALL, full, &[13..20, 0..5, 5..13]) == expected, "ranges");
+    assert!(layers_of(&scene, ALL, full, &[[13, 20], [0, 5], [5, 13]]) == expected, "ranges");
     let part = Window { x0: 7, y0: 11, width: 9, height: 5 };
-    let cut = layers_of(&scene, ALL, part, &[0..20]);
+    let cut = layers_of(&scene, ALL, part, &[[0, 20]]);
     let inside = |i: usize| full.index(7 + i as u32 % 9, 11 + i as u32 / 9).expect("inside");
     for i in 0..45 {
         assert_eq!(cut.features()[i], expected.features()[inside(i)]);

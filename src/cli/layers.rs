@@ -1,7 +1,7 @@
 //! What `spectrel render` writes beside the picture: AOVs into EXR files, bands of wavelength into spectral ones.
 
 use super::memory;
-use crate::film::{Developed, FilmError, Layers, Wanted, Window};
+use crate::film::{Developed, FilmError, Layers, REPLICATES, Replicates, Wanted, Window};
 use crate::image::channels::FAR;
 use crate::image::{Channel, ExrSpace, Extra, Format, Metadata, spectral};
 use crate::render::{FirstHit, Guides, Kernel, Recorder, first_hits};
@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 pub struct LayerArgs {
     /// Layers of the EXR files beside the picture, separated by commas (variance renders 8 independent replicates of
     /// each pixel, with another and somewhat stronger noise)
-    #[arg(long, value_name = "LAYER,…", value_enum, value_delimiter = ',', hide_possible_values = false)]
+    #[arg(long, value_name = "LAYER,…", value_enum, value_delimiter = ',')]
     aovs: Vec<Aov>,
     /// Albedo and normal as denoisers want them, into the EXR files: as --aovs albedo,normal but seen in mirrors too
     #[arg(long)]
@@ -82,7 +82,7 @@ impl Plan {
 
     /// Empty layers, if the scene's settings and the memory allow them.
     pub fn layers(&self, scene: &Scene, window: Window) -> Result<Layers, SceneError> {
-        let least = crate::film::REPLICATES as u32;
+        let least = REPLICATES as u32;
         if self.has(Aov::Variance) && scene.settings.samples < least {
             let message =
                 format!("the variance compares {least} replicates of each pixel: it needs --spp {least} or more");
@@ -101,7 +101,7 @@ impl Plan {
         Recorder::new(kernel, guides, self.bins.as_ref())
     }
 
-    /// What goes into a file beside the picture. `matrix` takes the film's XYZ to the picture's RGB.
+    /// What goes into a file beside the picture.
     pub fn extra(&self, path: &Path, scene: &Scene, layers: &Layers, picture: &Picture) -> Extra {
         match &self.bins {
             Some(bins) if is_spectral(path) => spectral::extra(layers, bins),
@@ -120,7 +120,7 @@ impl Plan {
             channels.extend(Channel::triple("normal", ["X", "Y", "Z"], false, &normal));
         }
         if self.has(Aov::Variance) {
-            let of = |pixel: &crate::film::Replicates| pixel.variance_of_mean(&picture.from_xyz).map(|v| v as f32);
+            let of = |pixel: &Replicates| pixel.variance_of_mean(&picture.from_xyz).map(|v| v as f32);
             let variance: Vec<_> = layers.replicates().iter().map(of).collect();
             channels.extend(Channel::triple("variance", ["R", "G", "B"], true, &variance));
         }

@@ -92,7 +92,7 @@ impl Layers {
 
     /// Rows from the top: disjoint, for threads to share.
     pub fn rows_mut(&mut self) -> Vec<LayersRow<'_>> {
-        let (width, height) = (self.film.window().width as usize, self.film.window().height as usize);
+        let width = self.film.window().width as usize;
         let mut features = rows(&mut self.features, width);
         let mut replicates = rows(&mut self.replicates, width);
         let mut bands = rows(&mut self.bands, width * self.wanted.bands);
@@ -103,9 +103,7 @@ impl Layers {
             bands: bands.next().unwrap_or_default(),
             band_count: self.wanted.bands,
         };
-        let rows: Vec<_> = self.film.pixels_mut().chunks_exact_mut(width).map(row).collect();
-        debug_assert_eq!(rows.len(), height);
-        rows
+        self.film.pixels_mut().chunks_exact_mut(width).map(row).collect()
     }
 }
 
