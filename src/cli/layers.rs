@@ -124,16 +124,22 @@ impl Plan {
             let variance: Vec<_> = layers.replicates().iter().map(of).collect();
             channels.extend(Channel::triple("variance", ["R", "G", "B"], true, &variance));
         }
-        if self.has(Aov::Depth) || self.has(Aov::Object) {
-            let hits = first_hits(scene, layers.film().window());
-            let channel =
-                |name, value: fn(&Option<FirstHit>) -> f32| Channel::new(name, hits.iter().map(value).collect());
-            let depth = self.has(Aov::Depth).then(|| channel("depth.Z", |hit| hit.map_or(FAR, |hit| hit.depth)));
-            let number = |hit: &Option<FirstHit>| hit.map_or(0.0, |hit| (hit.object + 1) as f32);
-            let object = self.has(Aov::Object).then(|| channel("object.id", number));
-            channels.extend(depth.into_iter().chain(object));
-        }
+        channels.extend(self.of_first_hits(scene, layers.film().window()));
         channels
+    }
+
+    fn of_first_hits(&self, scene: &Scene, window: Window) -> Vec<Channel> {
+        let (depth, object) = (self.has(Aov::Depth), self.has(Aov::Object));
+        if !depth && !object {
+            return vec![];
+        }
+        let hits = first_hits(scene, window);
+        let channel = |name, value: fn(&FirstHit) -> f32, nothing: f32| {
+            Channel::new(name, hits.iter().map(|hit| hit.as_ref().map_or(nothing, value)).collect())
+        };
+        let depth = depth.then(|| channel("depth.Z", |hit| hit.depth, FAR));
+        let object = object.then(|| channel("object.id", |hit| (hit.object + 1) as f32, 0.0));
+        depth.into_iter().chain(object).collect()
     }
 
     /// What a file says of itself.

@@ -1,7 +1,9 @@
 //! A film with what was asked for beside it: features, replicates, bands of wavelength.
 //!
 //! Every layer is made of exact sums, so that layers are as independent of threads, windows and cuts as the film is. What is
-//! not asked for takes no memory.
+//! not asked for takes no memory; a pixel takes 112 bytes for the film, 56 more for features, 416 for replicates, 16 for each
+//! band (41 bands of 960 × 640 pixels: 0.4 GB). What they cost in time (`benches/layers.rs`, twelve metals): nothing without layers, 22 %
+//! for features (one more ray), 5 % for replicates, 11 % for 41 bands.
 
 use super::fixed::{sum_to_f64, sum_units};
 use super::{Features, Film, FilmError, Pixel, Replicates, Window};

@@ -11,7 +11,7 @@
 //! - R, G, B of the developed picture beside them, as the layout recommends, for viewers that know no spectra.
 //!
 //! Bands always have 32 bits: radiances of ordinary pictures are about 1e-4, where 16 bits have three digits at best.
-//! tev and Nuke show such a file; Blender refuses layers of more than 24 channels, so it reads files with at most 24 bands.
+//! tev and Nuke show such a file; Blender gives up on a layer of 24 channels, so that it opens files of at most 23 bands.
 
 use super::{Channel, Extra, Metadata};
 use crate::film::Layers;
