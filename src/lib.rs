@@ -8,9 +8,9 @@
 //!     → scene::resolve    names become data, units become SI and nm, every check is made
 //!     → scene::needs      which physics this scene uses, and why
 //!     → render            paths of eight wavelengths, tile by tile
-//!     → film              exact sums of XYZ in cd/m²
+//!     → film              exact sums of XYZ in cd/m², and of what is asked for beside it
 //!     → film::develop     exposure, white balance, RGB space, gamut
-//!     → image             EXR and PNG
+//!     → image             EXR with its layers, spectral EXR, PNG
 //! ```
 //!
 //! Parsing and resolving may fail; rendering cannot. `spectrum` and `fresnel` know no scene and are usable alone.

@@ -52,6 +52,12 @@ impl PixelSamples {
         Self { kind, key }
     }
 
+    /// The same pixel under a random shift of its own: replicates draw independent points, each as well stratified as the
+    /// pixel's own.
+    pub fn replicate(&self, replicate: u32) -> Self {
+        Self { key: hash(self.key ^ hash(replicate ^ 0x7feb_352d)), ..*self }
+    }
+
     /// The numbers of sample `index`.
     #[inline]
     pub fn sample(&self, index: u64) -> Sampler {

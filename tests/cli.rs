@@ -1,11 +1,13 @@
 //! The command line from outside: what is printed, which files appear, and what is in them.
 
+mod common;
+
+use common::command::{command, folder, run};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
-use tempfile::TempDir;
+use std::process::{Command, Stdio};
 
 const SPHERE_SCENE: &str = r#"
 [render]
@@ -32,29 +34,6 @@ shape.sphere = { radius = 3 }
 
 fn scene_of(material: &str) -> String {
     SPHERE_SCENE.replace("MATERIAL", material)
-}
-
-fn folder(files: &[(&str, &str)]) -> TempDir {
-    let folder = tempfile::tempdir().expect("a folder");
-    for (name, content) in files {
-        let path = folder.path().join(name);
-        fs::create_dir_all(path.parent().expect("a parent")).expect("a folder");
-        fs::write(path, content).expect("a file");
-    }
-    folder
-}
-
-fn command(folder: &Path, args: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_spectrel"));
-    command.current_dir(folder).args(args);
-    command
-}
-
-/// Runs `spectrel` and expects success.
-fn run(folder: &Path, args: &[&str]) -> Output {
-    let output = command(folder, args).output().expect("spectrel runs");
-    assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
-    output
 }
 
 fn stdout(folder: &Path, args: &[&str]) -> String {

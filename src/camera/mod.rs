@@ -130,6 +130,22 @@ impl Camera {
     }
 }
 
+impl Camera {
+    /// The ray through a point of the picture that no opening blurs: from the lens's middle.
+    pub fn principal_ray(&self, x: f32, y: f32) -> Ray {
+        let view = self.corner + self.step_x * x + self.step_y * y;
+        match self.parallel {
+            true => Ray::free(self.position + view, self.forward),
+            false => Ray::free(self.position, view.normalize()),
+        }
+    }
+
+    /// How far in front of the camera a point is, along the direction of view.
+    pub fn depth(&self, point: Vec3) -> f32 {
+        (point - self.position).dot(self.forward)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

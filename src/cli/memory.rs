@@ -1,7 +1,7 @@
 //! Whether a picture fits into memory: asked before a render, for systems that promise memory they do not have end the
 //! program once it is used.
 
-use crate::film::{Film, Window};
+use crate::film::Window;
 use crate::scene::SceneError;
 
 /// Bytes a pixel takes beside the film while it is developed (XYZ and RGB) and encoded (all files at once).
@@ -9,8 +9,12 @@ const DEVELOPED_BYTES: f64 = 96.0;
 
 const GIB: f64 = (1u64 << 30) as f64;
 
-pub fn check(window: Window) -> Result<(), SceneError> {
-    let a_pixel = Film::memory_bytes(1, 1) as f64 + DEVELOPED_BYTES;
+/// Bytes of a channel beside the picture: gathered, and encoded.
+const CHANNEL_BYTES: usize = 12;
+
+/// For a film of so many bytes a pixel, and so many channels made of it beside the picture.
+pub fn check(window: Window, film_bytes: u64, channels: usize) -> Result<(), SceneError> {
+    let a_pixel = film_bytes as f64 + DEVELOPED_BYTES + (CHANNEL_BYTES * channels) as f64;
     let needed = f64::from(window.width) * f64::from(window.height) * a_pixel;
     match available_bytes() {
         Some(available) if needed > available => {

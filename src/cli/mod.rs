@@ -1,11 +1,16 @@
 //! The command line: one file a command.
 
 mod inspect;
+mod interrupt;
+mod job;
+mod layers;
 mod list;
 mod memory;
+mod preview;
 mod progress;
 mod render;
 mod show;
+mod watch;
 
 use crate::scene::{SceneError, Text};
 use crate::spectrum::{Library, nearest};

@@ -1,25 +1,22 @@
 //! `spectrel render`: a scene becomes pictures.
 
-use super::progress::Shown;
-use super::{SceneArgs, memory, show};
-use crate::film::{Develop, Developed, Exposure, Film, Gamut, Window, fnv1a_64};
+use super::interrupt::Interrupt;
+use super::job::Job;
+use super::layers::LayerArgs;
+use super::preview::{DEFAULT_HOST, Preview};
+use super::{SceneArgs, show, watch};
 use crate::fresnel::FresnelModel;
-use crate::image::{self, Bits, ExrSpace, Metadata, Options};
-use crate::render::{Kernel, render};
-use crate::scene::describe::{ExposureValue, GamutName};
-use crate::scene::{Needs, Overrides, Scene, SceneError, resolve};
-use crate::spectrum::RgbSpace;
+use crate::image::{self, Bits, ExrSpace, Options};
+use crate::scene::{Overrides, SceneError, Text, resolve};
 use clap::Args;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
 
 #[derive(Debug, Args)]
 pub struct RenderArgs {
     #[command(flatten)]
     scene: SceneArgs,
-    /// Picture to write, .png or .exr; can be repeated [default: the scene's name with both]
+    /// Picture to write: .png, .exr, or .spectral.exr for bands of wavelength; can be repeated [default: the scene's
+    /// name with .png and .exr]
     #[arg(short, long, value_name = "FILE")]
     output: Vec<PathBuf>,
     /// Samples a pixel
@@ -54,6 +51,14 @@ pub struct RenderArgs {
     /// Write 16-bit floats into EXR files
     #[arg(long)]
     exr_half: bool,
+    #[command(flatten)]
+    layers: LayerArgs,
+    /// Render again when the scene or a file that it names changes, until Ctrl-C
+    #[arg(long)]
+    watch: bool,
+    /// Show progress in a running tev [default: 127.0.0.1:14158] (needs a build with the feature `preview`)
+    #[arg(long, value_name = "HOST:PORT", num_args = 0..=1, require_equals = true, default_missing_value = DEFAULT_HOST)]
+    preview: Option<String>,
     /// Print nothing but warnings and errors
     #[arg(long, short)]
     quiet: bool,
@@ -104,16 +109,24 @@ impl RenderArgs {
         if !self.output.is_empty() {
             return self.output.clone();
         }
-        let name = self.scene.scene.as_deref().and_then(Path::file_stem).unwrap_or("spectrel".as_ref());
-        let with = |ending: &str| {
-            let mut name = name.to_owned();
-            name.push(ending);
-            name.into()
-        };
-        [".png", ".exr"].map(with).to_vec()
+        [".png", ".exr"].map(|ending| format!("{}{ending}", self.name()).into()).to_vec()
     }
 
-    fn options(&self) -> Options {
+    /// What pictures are called unless they are named.
+    fn name(&self) -> String {
+        let stem = self.scene.scene.as_deref().and_then(Path::file_stem).unwrap_or("spectrel".as_ref());
+        stem.to_string_lossy().into_owned()
+    }
+
+    pub fn quiet(&self) -> bool {
+        self.quiet
+    }
+
+    pub fn threads(&self) -> usize {
+        usize::from(self.threads.unwrap_or(0))
+    }
+
+    pub fn options(&self) -> Options {
         Options {
             bits: self.png_bits.0,
             exr_space: if self.exr_xyz { ExrSpace::Xyz } else { ExrSpace::Rgb },
@@ -125,129 +138,21 @@ impl RenderArgs {
 pub fn run(args: &RenderArgs) -> Result<(), SceneError> {
     let outputs = args.outputs();
     outputs.iter().try_for_each(|path| image::check_writable(path)).map_err(SceneError::new)?;
-    let library = args.scene.library.open()?;
-    let scene = resolve(args.scene.read()?, &library, &args.overrides())?;
-    scene.warnings.iter().for_each(show::warning);
-    let needs = Needs::of(&scene);
-    let film = expose(&scene, &needs, args)?;
-    let developed = film.develop(&development(&scene)).map_err(SceneError::new)?;
-    report(&developed, args.quiet);
-    write(&outputs, &developed, &metadata(&scene, &film, &developed), args)
-}
-
-/// Writes all pictures, or none if one of them cannot be encoded.
-fn write(paths: &[PathBuf], developed: &Developed, metadata: &Metadata, args: &RenderArgs) -> Result<(), SceneError> {
-    let encode = |path: &PathBuf| image::encode(image::Format::of(path)?, developed, &args.options(), metadata);
-    let files = paths.iter().map(encode).collect::<Result<Vec<_>, _>>().map_err(SceneError::new)?;
-    for (path, file) in paths.iter().zip(files) {
-        image::atomic::write(path, &file.bytes).map_err(SceneError::new)?;
-        if file.beyond_half > 0 {
-            show::warning(format_args!("{} channels are beyond the range of 16-bit floats", file.beyond_half));
-        }
-        if !args.quiet {
-            show::note(format_args!("wrote {} ({:.0} kB)", path.display(), file.bytes.len() as f64 / 1e3));
-        }
+    let plan = args.layers.plan(&outputs)?;
+    let mut preview = args.preview.as_deref().map(|host| Preview::connect(host, &args.name())).transpose()?;
+    let interrupt = Interrupt::listen();
+    let mut render = |read: &dyn Fn(&[Text])| {
+        let scene = resolve(args.scene.read()?, &args.scene.library.open()?, &args.overrides())?;
+        read(&scene.sources);
+        scene.warnings.iter().for_each(show::warning);
+        Job { args, plan: &plan, scene: &scene }.run(&outputs, &interrupt, preview.as_mut())
+    };
+    if !args.watch {
+        return render(&|_| {});
     }
+    let Some(scene) = &args.scene.scene else {
+        return Err(SceneError::new("--watch needs a scene file: the built-in scene never changes"));
+    };
+    watch::run(scene, &interrupt, args.quiet, render);
     Ok(())
-}
-
-/// Renders the scene, on a thread pool of its own, until it is done or interrupted.
-fn expose(scene: &Scene, needs: &Needs, args: &RenderArgs) -> Result<Film, SceneError> {
-    let settings = &scene.settings;
-    let window = window(settings.crop);
-    memory::check(window)?;
-    let mut film = Film::new([settings.width, settings.height], window).map_err(SceneError::new)?;
-    let threads = usize::from(args.threads.unwrap_or(0));
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(SceneError::new)?;
-    let cancel = cancel_on_interrupt();
-    let samples = u64::from(settings.samples);
-    let progress = Shown::new(window.pixel_count() * samples, args.quiet);
-    let started = Instant::now();
-    let kernel = Kernel::new(scene, needs);
-    pool.install(|| render(&kernel, &mut film, 0..samples, &progress, &cancel));
-    progress.finish();
-    if cancel.load(Ordering::Relaxed) {
-        show::warning("interrupted: writing what there is");
-    }
-    if !args.quiet {
-        let seconds = started.elapsed().as_secs_f64();
-        let rate = film.samples() as f64 / seconds / 1e6;
-        let each = film.samples() / window.pixel_count();
-        let Window { width, height, .. } = window;
-        show::note(format_args!(
-            "{width} × {height} pixels, {each} samples each: {seconds:.1} s, {rate:.2} M samples/s"
-        ));
-    }
-    Ok(film)
-}
-
-fn window([x0, y0, x1, y1]: [u32; 4]) -> Window {
-    Window { x0, y0, width: x1 - x0, height: y1 - y0 }
-}
-
-/// The first interrupt ends the render with a picture, the second one at once.
-fn cancel_on_interrupt() -> Arc<AtomicBool> {
-    let cancel = Arc::new(AtomicBool::new(false));
-    let flag = cancel.clone();
-    // Without a handler an interrupt ends the program as usual: nothing is lost but the picture.
-    let _ = ctrlc::set_handler(move || {
-        if flag.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
-        }
-    });
-    cancel
-}
-
-fn report(developed: &Developed, quiet: bool) {
-    if !quiet {
-        show::note(format_args!("exposure {:.2} EV: white is {:.4} cd/m²", developed.ev, developed.ev.exp2()));
-        if !developed.report.fits() {
-            show::note(&developed.report);
-        }
-    }
-    developed.report.warnings().iter().for_each(show::warning);
-}
-
-fn development(scene: &Scene) -> Develop {
-    Develop {
-        exposure: match scene.picture.exposure {
-            ExposureValue::Auto => Exposure::Auto,
-            ExposureValue::Ev(ev) => Exposure::Ev(ev),
-        },
-        white: scene.picture.white,
-        space: RgbSpace::Srgb,
-        gamut: match scene.picture.gamut {
-            GamutName::Clip => Gamut::Clip,
-            GamutName::PreserveChroma => Gamut::PreserveChroma,
-        },
-    }
-}
-
-/// What determines the picture.
-fn metadata(scene: &Scene, film: &Film, developed: &Developed) -> Metadata {
-    let settings = &scene.settings;
-    let [x0, y0, x1, y1] = settings.crop;
-    Metadata::new()
-        .with("version", env!("CARGO_PKG_VERSION"))
-        .with("scene", format!("{:016x}", fingerprint(scene)))
-        .with("size", format!("{}x{}", settings.width, settings.height))
-        .with("crop", format!("{x0},{y0},{x1},{y1}"))
-        .with("samples", film.samples() / film.window().pixel_count())
-        .with("seed", settings.seed)
-        .with("lanes", settings.lanes)
-        .with("fresnel", settings.fresnel.map_or("by material", FresnelModel::name))
-        .with("exposure", format!("{} EV", developed.ev))
-        .with("white", &scene.picture.white_balance)
-        .with("observer", &scene.picture.observer.about.name)
-}
-
-/// Identifies what is rendered: the texts of scene and materials, and every spectrum that came of them.
-fn fingerprint(scene: &Scene) -> u64 {
-    let texts: String = scene.sources.iter().map(|text| text.content.as_str()).collect();
-    // A file that can no longer be read has been told apart by its name.
-    let files =
-        scene.files.iter().map(|path| (path.file_name(), std::fs::read(path).ok().map(|bytes| fnv1a_64(&bytes))));
-    let files: Vec<_> = files.collect();
-    let files = if files.is_empty() { String::new() } else { format!("{files:?}") };
-    fnv1a_64(format!("{texts}{:?}{files}", scene.spectra).as_bytes())
 }

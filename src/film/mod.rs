@@ -7,6 +7,8 @@
 //! - [`window`]: which part of the full image a film covers, and its tiles
 //! - [`fixed`]: one number to fixed point
 //! - [`pixel`]: the sums of one pixel
+//! - [`layers`]: a film with features, replicates and bands of wavelength beside it
+//! - [`features`]: albedo and normal of one pixel; [`replicates`]: how uncertain it is
 //! - [`exposure`]: which luminance becomes display white
 //! - [`develop`]: exposure → white balance → RGB
 //! - [`gamut`]: what a display cannot show, counted and, for PNG, moved inside
@@ -14,18 +16,24 @@
 pub mod develop;
 pub mod error;
 pub mod exposure;
+pub mod features;
 pub mod fixed;
 pub mod gamut;
 pub mod hash;
+pub mod layers;
 pub mod pixel;
+pub mod replicates;
 pub mod window;
 
 pub use develop::{Develop, Developed};
 pub use error::FilmError;
 pub use exposure::Exposure;
+pub use features::Features;
 pub use gamut::{Gamut, GamutReport};
 pub use hash::fnv1a_64;
+pub use layers::{Layers, LayersRow, Wanted};
 pub use pixel::Pixel;
+pub use replicates::{REPLICATES, Replicates};
 pub use window::Window;
 
 /// The pixels of a window of an image.

@@ -1,6 +1,6 @@
 //! OpenEXR: every colour as it is.
 //!
-//! Three channels R, G, B of one part, scan lines, ZIP. They hold
+//! Three channels R, G, B of one part, scan lines, ZIP; what else there is stands beside them ([`super::channels`]). They hold
 //!
 //! - linear RGB of the development: `chromaticities` are those of its space, `whiteLuminance` = 2^EV, the luminance of
 //!   RGB (1, 1, 1) in cd/m²; or
@@ -16,12 +16,12 @@ use std::io::Cursor;
 use exr::math::Vec2;
 use exr::meta::attribute::{AttributeValue, Chromaticities, IntegerBounds, Text};
 use exr::prelude::{
-    Blocks, Compression, Encoding, Image, ImageAttributes, IntoSample, Layer, LayerAttributes, LineOrder,
-    SpecificChannels, WritableImage, f16,
+    AnyChannel, AnyChannels, Blocks, Compression, Encoding, FlatSamples, Image, ImageAttributes, Layer,
+    LayerAttributes, LineOrder, WritableImage, f16,
 };
 
 use super::exr_header::sort_attributes;
-use super::{Encoded, ExrSpace, ImageError, Metadata, Options};
+use super::{Encoded, ExrSpace, Extra, ImageError, Metadata, Options};
 use crate::film::Developed;
 use crate::spectrum::{RgbSpace, Xyz};
 
@@ -33,20 +33,45 @@ use crate::spectrum::{RgbSpace, Xyz};
 const ENCODING: Encoding =
     Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
 
-/// The EXR file of a picture.
-pub fn encode(developed: &Developed, options: &Options, metadata: &Metadata) -> Result<Encoded, ImageError> {
+/// The EXR file of a picture, with `extra` beside it.
+pub fn encode(
+    developed: &Developed,
+    extra: &Extra,
+    options: &Options,
+    metadata: &Metadata,
+) -> Result<Encoded, ImageError> {
     let pixels = match options.exr_space {
         ExrSpace::Rgb => &developed.rgb,
         ExrSpace::Xyz => &developed.xyz,
     };
-    let attributes = Attributes::new(developed, options.exr_space, metadata)?;
-    let (bytes, beyond_half) = if options.half {
-        let beyond = pixels.iter().flatten().filter(|c| c.abs() > HALF_MAX).count();
-        (attributes.write(pixels, to_half)?, beyond as u64)
-    } else {
-        (attributes.write(pixels, |c| c)?, 0)
-    };
-    Ok(Encoded { bytes, beyond_half })
+    let mut attributes = Attributes::new(developed, options.exr_space, metadata)?;
+    let named = extra.attributes.iter().map(|(name, value)| (text(name), AttributeValue::Text(text(value))));
+    attributes.layer.other.extend(named);
+    let mut storage = Storage { half: options.half, beyond_half: 0 };
+    let picture = [("R", 0), ("G", 1), ("B", 2)];
+    let picture = picture.map(|(name, i)| storage.channel(name, false, pixels.iter().map(|pixel| pixel[i])));
+    let others: Vec<_> =
+        extra.channels.iter().map(|c| storage.channel(&c.name, c.full, c.values.iter().copied())).collect();
+    let channels = picture.into_iter().chain(others).collect();
+    Ok(Encoded { bytes: attributes.write(channels)?, beyond_half: storage.beyond_half })
+}
+
+/// How channels are stored, and what that cut off.
+struct Storage {
+    half: bool,
+    beyond_half: u64,
+}
+
+impl Storage {
+    fn channel(&mut self, name: &str, full: bool, values: impl Iterator<Item = f32>) -> AnyChannel<FlatSamples> {
+        if full || !self.half {
+            return AnyChannel::new(text(name), FlatSamples::F32(values.collect()));
+        }
+        let mut beyond = 0;
+        let halves = values.inspect(|c| beyond += u64::from(c.abs() > HALF_MAX)).map(to_half).collect();
+        self.beyond_half += beyond;
+        AnyChannel::new(text(name), FlatSamples::F16(halves))
+    }
 }
 
 const HALF_MAX: f32 = 65504.0;
@@ -89,16 +114,8 @@ impl Attributes {
         Ok(Self { size: Vec2(window.width as usize, window.height as usize), image, layer })
     }
 
-    fn write<S: IntoSample>(
-        self,
-        pixels: &[[f32; 3]],
-        sample: impl Fn(f32) -> S + Sync,
-    ) -> Result<Vec<u8>, ImageError> {
-        let width = self.size.0;
-        let channels = SpecificChannels::rgb(|at: Vec2<usize>| {
-            let [r, g, b] = pixels.get(at.1 * width + at.0).copied().unwrap_or_default();
-            (sample(r), sample(g), sample(b))
-        });
+    fn write(self, channels: Vec<AnyChannel<FlatSamples>>) -> Result<Vec<u8>, ImageError> {
+        let channels = AnyChannels::sort(channels.into_iter().collect());
         let image = Image::new(self.image, Layer::new(self.size, self.layer, ENCODING, channels));
         let mut bytes = Cursor::new(Vec::new());
         image.write().to_buffered(&mut bytes).map_err(|e| failed(&e.to_string()))?;

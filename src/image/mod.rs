@@ -1,17 +1,20 @@
 //! Pictures as files: EXR keeps every colour, PNG shows it.
 //!
-//! The extension chooses the format. Files are written whole or not at all ([`atomic`]), and the same picture with the
+//! The extension chooses the format; EXR files can hold more than the picture ([`channels`], [`spectral`]). Files are written whole or not at all ([`atomic`]), and the same picture with the
 //! same [`Metadata`] gives the same bytes on every machine.
 
 pub mod atomic;
+pub mod channels;
 pub mod error;
 pub mod exr;
 mod exr_header;
 pub mod metadata;
 pub mod png;
+pub mod spectral;
 
 use std::path::{Path, PathBuf};
 
+pub use channels::{Channel, Extra};
 pub use error::ImageError;
 pub use metadata::Metadata;
 
@@ -100,9 +103,20 @@ pub fn encode(
     options: &Options,
     metadata: &Metadata,
 ) -> Result<Encoded, ImageError> {
+    encode_with(format, developed, &Extra::default(), options, metadata)
+}
+
+/// [`encode`] with `extra` beside the picture, in formats that can hold it.
+pub fn encode_with(
+    format: Format,
+    developed: &Developed,
+    extra: &Extra,
+    options: &Options,
+    metadata: &Metadata,
+) -> Result<Encoded, ImageError> {
     metadata.check()?;
     match format {
-        Format::Exr => exr::encode(developed, options, metadata),
+        Format::Exr => exr::encode(developed, extra, options, metadata),
         Format::Png => png::encode(developed, options.bits, metadata),
     }
 }

@@ -3,18 +3,26 @@
 //! A render cannot fail. It is cut into passes of [`PASS`] samples over all rows, so that what there is at any time is a
 //! whole picture; the film's sums are exact, so neither the cut nor the threads change a bit of it.
 
+mod features;
 mod interface;
+mod layers;
 mod media;
 mod path;
 mod rough;
 mod scatter;
 mod stone;
+mod visible;
+
+pub use features::{Guides, Seen};
+pub use layers::{Recorder, render_layers};
+pub use visible::{FirstHit, first_hits};
 
 use crate::film::{Film, Pixel};
+use crate::geometry::Ray;
 use crate::sampler::{self, PixelSamples, Sampler};
 use crate::scene::describe::SamplerName;
 use crate::scene::{Needs, Scene};
-use crate::spectrum::{Nodes, SpectrumId, Tables};
+use crate::spectrum::{Lanes, Nodes, SpectrumId, Tables};
 use media::MediaStack;
 use path::Path;
 use rayon::prelude::*;
@@ -46,6 +54,13 @@ pub struct Kernel<'a> {
     sampler: sampler::Kind,
 }
 
+/// A camera ray and the spectral radiance that arrives along it, at the wavelengths of a place in the tables.
+struct Traced<const N: usize> {
+    ray: Ray,
+    offset: u32,
+    radiance: Lanes<N>,
+}
+
 impl<'a> Kernel<'a> {
     pub fn new(scene: &'a Scene, needs: &'a Needs) -> Self {
         let nodes = Nodes::new(&needs.wavelength_density);
@@ -68,22 +83,32 @@ impl<'a> Kernel<'a> {
         }
     }
 
-    /// XYZ in cd/m² of one sample of one pixel.
+    /// One sample of one pixel.
     #[inline]
-    fn sample<const N: usize>(&self, pixel: [u32; 2], mut sampler: Sampler) -> [f32; 3] {
+    fn trace<const N: usize>(&self, pixel: [u32; 2], mut sampler: Sampler) -> Traced<N> {
         let offset = sampler.set(self.tables.sets()) * N as u32;
         let [dx, dy] = self.scene.filter.sample(sampler.uniform_2d());
         let [x, y] = [pixel[0] as f32 + 0.5 + dx, pixel[1] as f32 + 0.5 + dy];
         let ray = self.scene.camera.ray(x, y, || sampler.uniform_2d());
-        let radiance = self.radiance(Path::<N>::new(ray, offset, self.around_camera), &mut sampler);
-        self.observer.map(|weights| (radiance * self.tables.get(weights, offset)).sum())
+        let path = Path::<N>::new(ray, offset, self.around_camera);
+        Traced { ray, offset, radiance: self.radiance(path, &mut sampler) }
+    }
+
+    /// XYZ of a sample in cd/m².
+    #[inline]
+    fn xyz<const N: usize>(&self, traced: &Traced<N>) -> [f32; 3] {
+        self.observer.map(|weights| (traced.radiance * self.tables.get(weights, traced.offset)).sum())
+    }
+
+    fn samples(&self, pixel: [u32; 2]) -> PixelSamples {
+        PixelSamples::new(self.sampler, self.scene.settings.seed, pixel)
     }
 
     fn row<const N: usize>(&self, row: &mut [Pixel], [x0, y]: [u32; 2], samples: &Range<u64>) {
         for (pixel, x) in row.iter_mut().zip(x0..) {
-            let numbers = PixelSamples::new(self.sampler, self.scene.settings.seed, [x, y]);
+            let numbers = self.samples([x, y]);
             for index in samples.clone() {
-                pixel.add(self.sample::<N>([x, y], numbers.sample(index)));
+                pixel.add(self.xyz(&self.trace::<N>([x, y], numbers.sample(index))));
             }
         }
     }
@@ -100,8 +125,7 @@ pub fn render(kernel: &Kernel, film: &mut Film, samples: Range<u64>, progress: &
         _ => Kernel::row::<8>,
     };
     let window = film.window();
-    for first in samples.clone().step_by(PASS as usize) {
-        let pass = first..(first + u64::from(PASS)).min(samples.end);
+    for pass in passes(samples) {
         film.pixels_mut().par_chunks_mut(window.width as usize).zip(window.y0..window.y0 + window.height).for_each(
             |(row, y)| {
                 if !cancel.load(Ordering::Relaxed) {
@@ -111,4 +135,8 @@ pub fn render(kernel: &Kernel, film: &mut Film, samples: Range<u64>, progress: &
             },
         );
     }
+}
+
+fn passes(samples: Range<u64>) -> impl Iterator<Item = Range<u64>> {
+    samples.clone().step_by(PASS as usize).map(move |first| first..(first + u64::from(PASS)).min(samples.end))
 }

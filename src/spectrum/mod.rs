@@ -5,7 +5,7 @@
 //!   `rii_page`, `csv_file` read the formats; `about` is the provenance that comes along.
 //! - `integrate`: exact integrals of products of spectra; `observer`: the CIE observers.
 //! - `nodes`: the wavelengths that the renderer uses, and how they sample an integral; `lanes`: those of one path.
-//! - `arena`: the spectra of a scene and their tables.
+//! - `arena`: the spectra of a scene and their tables; `bins`: intervals of wavelength for spectral pictures.
 //! - `color`, `spaces`, `delta_e`, `upsample`: from XYZ to RGB, to a colour difference, and from RGB to a reflectance.
 //!
 //! Wavelengths are vacuum wavelengths in nm; what reaches a picture uses `libm`, so that every machine agrees.
@@ -13,6 +13,7 @@
 mod about;
 mod arena;
 mod bands;
+mod bins;
 mod color;
 mod csv_file;
 mod curve;
@@ -35,6 +36,7 @@ mod upsample;
 pub use about::{About, Confidence, Dataset, Ior, Quantity, Sample, Source};
 pub use arena::{Arena, SpectrumId, Tables};
 pub use bands::{Band, Bands};
+pub use bins::{BinShares, Bins};
 pub use color::{Matrix3, Xyz, bradford, lab_from_xyz, xyz_from_lab, xyz_from_xy};
 pub use curve::Spectrum;
 pub use delta_e::ciede2000;

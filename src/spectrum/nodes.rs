@@ -138,6 +138,11 @@ impl Nodes {
         0.5 * (self.edges_nm[i] + self.edges_nm[i + 1])
     }
 
+    /// Where the cell of node i begins and ends, nm.
+    pub fn cell_nm(&self, i: usize) -> (f64, f64) {
+        (self.edges_nm[i], self.edges_nm[i + 1])
+    }
+
     /// The width of the cell of node i, nm; all of them sum to 470.
     pub fn weight_nm(&self, i: usize) -> f64 {
         self.edges_nm[i + 1] - self.edges_nm[i]

@@ -2,7 +2,9 @@
 
 #![allow(dead_code, reason = "each test binary uses a part")]
 
+pub mod command;
 pub mod lanes;
+pub mod prism;
 
 use spectrel::film::{Film, Window};
 use spectrel::render::{Kernel, render};

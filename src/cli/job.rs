@@ -1,0 +1,197 @@
+//! One render of one scene: exposed, developed, written.
+
+use super::interrupt::Interrupt;
+use super::layers::{Picture, Plan};
+use super::preview::Preview;
+use super::progress::Shown;
+use super::render::RenderArgs;
+use super::show;
+use crate::film::{Develop, Developed, Exposure, Film, Gamut, Layers, Window, fnv1a_64};
+use crate::fresnel::FresnelModel;
+use crate::image::{self, Encoded, Extra, Metadata};
+use crate::render::{Kernel, PASS, render_layers};
+use crate::scene::describe::{ExposureValue, GamutName};
+use crate::scene::{Needs, Scene, SceneError};
+use crate::spectrum::RgbSpace;
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+pub struct Job<'a> {
+    pub args: &'a RenderArgs,
+    pub plan: &'a Plan,
+    pub scene: &'a Scene,
+}
+
+impl Job<'_> {
+    /// Renders and writes; writes nothing if the render was ended because it is to begin anew.
+    pub fn run(
+        &self,
+        outputs: &[PathBuf],
+        interrupt: &Interrupt,
+        preview: Option<&mut Preview>,
+    ) -> Result<(), SceneError> {
+        let layers = self.expose(interrupt, preview)?;
+        if interrupt.stopped() && !interrupt.pressed() {
+            return Ok(());
+        }
+        if interrupt.pressed() && layers.film().samples() == 0 {
+            // Before there was anything to show: as if nobody had listened.
+            std::process::exit(130);
+        }
+        let developed = self.develop(&layers)?;
+        report(&developed, self.args.quiet());
+        self.write(outputs, &layers, &developed)
+    }
+
+    /// Renders on a thread pool of its own, until it is done or interrupted.
+    fn expose(&self, interrupt: &Interrupt, preview: Option<&mut Preview>) -> Result<Layers, SceneError> {
+        let (scene, quiet) = (self.scene, self.args.quiet());
+        let window = window(scene.settings.crop);
+        let mut layers = self.plan.layers(scene, window)?;
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.args.threads()).build().map_err(SceneError::new)?;
+        let samples = u64::from(scene.settings.samples);
+        let progress = Shown::new(window.pixel_count() * samples, quiet);
+        let started = Instant::now();
+        let needs = Needs::of(scene);
+        let kernel = Kernel::new(scene, &needs);
+        let recorder = self.plan.recorder(&kernel, scene, &needs);
+        let mut render = |layers: &mut Layers, samples| {
+            pool.install(|| render_layers(&recorder, layers, samples, &progress, interrupt.flag()));
+        };
+        match preview {
+            None => render(&mut layers, 0..samples),
+            Some(preview) => self.expose_and_show(&mut layers, preview, &mut render, interrupt)?,
+        }
+        progress.finish();
+        if interrupt.pressed() {
+            show::warning("interrupted: writing what there is");
+        }
+        if !quiet && interrupt.pressed() == interrupt.stopped() {
+            summary(layers.film(), started);
+        }
+        Ok(layers)
+    }
+
+    /// The same in passes, with a look at what there is in between.
+    fn expose_and_show(
+        &self,
+        layers: &mut Layers,
+        preview: &mut Preview,
+        render: &mut dyn FnMut(&mut Layers, std::ops::Range<u64>),
+        interrupt: &Interrupt,
+    ) -> Result<(), SceneError> {
+        let samples = u64::from(self.scene.settings.samples);
+        for first in (0..samples).step_by(PASS as usize) {
+            let end = (first + u64::from(PASS)).min(samples);
+            render(layers, first..end);
+            let last = end == samples || interrupt.stopped();
+            if last || preview.is_due() {
+                preview.show(&self.develop(layers)?);
+            }
+            if last {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    fn develop(&self, layers: &Layers) -> Result<Developed, SceneError> {
+        layers.film().develop(&development(self.scene)).map_err(SceneError::new)
+    }
+
+    /// Writes all pictures, or none if one of them cannot be encoded.
+    fn write(&self, paths: &[PathBuf], layers: &Layers, developed: &Developed) -> Result<(), SceneError> {
+        let files = paths.iter().map(|path| self.encode(path, layers, developed)).collect::<Result<Vec<_>, _>>()?;
+        for (path, file) in paths.iter().zip(files) {
+            image::atomic::write(path, &file.bytes).map_err(SceneError::new)?;
+            if file.beyond_half > 0 {
+                show::warning(format_args!("{} channels are beyond the range of 16-bit floats", file.beyond_half));
+            }
+            if !self.args.quiet() {
+                show::note(format_args!("wrote {} ({:.0} kB)", path.display(), file.bytes.len() as f64 / 1e3));
+            }
+        }
+        Ok(())
+    }
+
+    fn encode(&self, path: &Path, layers: &Layers, developed: &Developed) -> Result<Encoded, SceneError> {
+        let (format, options) = (image::Format::of(path).map_err(SceneError::new)?, self.args.options());
+        let metadata = self.plan.describe(path, self.scene, &metadata(self.scene, layers.film(), developed))?;
+        let extra = match format {
+            image::Format::Png => Extra::default(),
+            image::Format::Exr => {
+                let matrix = development(self.scene).matrix(developed.ev);
+                let picture = Picture::new(developed, matrix, options.exr_space)?;
+                self.plan.extra(path, self.scene, layers, &picture)
+            }
+        };
+        image::encode_with(format, developed, &extra, &options, &metadata).map_err(SceneError::new)
+    }
+}
+
+fn summary(film: &Film, started: Instant) {
+    let seconds = started.elapsed().as_secs_f64();
+    let rate = film.samples() as f64 / seconds / 1e6;
+    let each = film.samples() / film.window().pixel_count();
+    let Window { width, height, .. } = film.window();
+    show::note(format_args!("{width} × {height} pixels, {each} samples each: {seconds:.1} s, {rate:.2} M samples/s"));
+}
+
+fn window([x0, y0, x1, y1]: [u32; 4]) -> Window {
+    Window { x0, y0, width: x1 - x0, height: y1 - y0 }
+}
+
+fn report(developed: &Developed, quiet: bool) {
+    if !quiet {
+        show::note(format_args!("exposure {:.2} EV: white is {:.4} cd/m²", developed.ev, developed.ev.exp2()));
+        if !developed.report.fits() {
+            show::note(&developed.report);
+        }
+    }
+    developed.report.warnings().iter().for_each(show::warning);
+}
+
+fn development(scene: &Scene) -> Develop {
+    Develop {
+        exposure: match scene.picture.exposure {
+            ExposureValue::Auto => Exposure::Auto,
+            ExposureValue::Ev(ev) => Exposure::Ev(ev),
+        },
+        white: scene.picture.white,
+        space: RgbSpace::Srgb,
+        gamut: match scene.picture.gamut {
+            GamutName::Clip => Gamut::Clip,
+            GamutName::PreserveChroma => Gamut::PreserveChroma,
+        },
+    }
+}
+
+/// What determines the picture.
+fn metadata(scene: &Scene, film: &Film, developed: &Developed) -> Metadata {
+    let settings = &scene.settings;
+    let [x0, y0, x1, y1] = settings.crop;
+    Metadata::new()
+        .with("version", env!("CARGO_PKG_VERSION"))
+        .with("scene", format!("{:016x}", fingerprint(scene)))
+        .with("size", format!("{}x{}", settings.width, settings.height))
+        .with("crop", format!("{x0},{y0},{x1},{y1}"))
+        .with("samples", film.samples() / film.window().pixel_count())
+        .with("seed", settings.seed)
+        .with("lanes", settings.lanes)
+        .with("fresnel", settings.fresnel.map_or("by material", FresnelModel::name))
+        .with("exposure", format!("{} EV", developed.ev))
+        .with("white", &scene.picture.white_balance)
+        .with("observer", &scene.picture.observer.about.name)
+}
+
+/// Identifies what is rendered: the texts of scene and materials, and every spectrum that came of them.
+fn fingerprint(scene: &Scene) -> u64 {
+    let texts: String = scene.sources.iter().map(|text| text.content.as_str()).collect();
+    // A file that can no longer be read is told apart by its name.
+    let hash = |path: &PathBuf| (path.file_name().map(OsStr::to_owned), fs::read(path).ok().map(|b| fnv1a_64(&b)));
+    let files: Vec<_> = scene.files.iter().map(hash).collect();
+    let files = if files.is_empty() { String::new() } else { format!("{files:?}") };
+    fnv1a_64(format!("{texts}{:?}{files}", scene.spectra).as_bytes())
+}

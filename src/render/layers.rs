@@ -1,0 +1,113 @@
+//! A render that records more than the picture: features, replicates, bands of wavelength.
+//!
+//! The same paths draw the same numbers as for a film alone, so that a picture with features or bands is the picture without
+//! them, bit by bit. Replicates are another cut of the samples (`film::replicates`): sample i is the sample i / R of replicate
+//! i mod R, and the picture has another noise than the one without them.
+
+use super::{Guides, Kernel, Progress, passes};
+use crate::film::{Layers, LayersRow, REPLICATES};
+use crate::sampler::{PixelSamples, Sampler};
+use crate::spectrum::{BinShares, Bins, Nodes};
+use rayon::prelude::*;
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// A kernel, and what fills the layers.
+pub struct Recorder<'a> {
+    kernel: &'a Kernel<'a>,
+    guides: Option<Guides>,
+    shares: Option<BinShares>,
+}
+
+impl<'a> Recorder<'a> {
+    /// What a film with layers needs: guides for its features, `bins` for its bands.
+    pub fn new(kernel: &'a Kernel<'a>, guides: Option<Guides>, bins: Option<&Bins>) -> Self {
+        let lanes = kernel.scene.settings.lanes as usize;
+        // The kernel has kept the spectra's values only; its nodes are quickly found again.
+        let shares = bins.map(|bins| BinShares::new(bins, &Nodes::new(&kernel.needs.wavelength_density), lanes));
+        Self { kernel, guides, shares }
+    }
+
+    fn row<const N: usize>(&self, row: &mut LayersRow, [x0, y]: [u32; 2], samples: &Range<u64>) {
+        for (at, x) in (0..row.pixels.len()).zip(x0..) {
+            let numbers = Numbers::new(self.kernel.samples([x, y]), !row.replicates.is_empty());
+            for index in samples.clone() {
+                self.sample::<N>(row, at, [x, y], numbers.sample(index), index);
+            }
+        }
+    }
+
+    #[inline]
+    fn sample<const N: usize>(&self, row: &mut LayersRow, at: usize, pixel: [u32; 2], sampler: Sampler, index: u64) {
+        let traced = self.kernel.trace::<N>(pixel, sampler);
+        let xyz = self.kernel.xyz(&traced);
+        row.pixels[at].add(xyz);
+        // The film has counted it as rejected; so it does not count for the layers.
+        if !xyz.iter().all(|c| c.is_finite()) {
+            return;
+        }
+        if let Some(replicates) = row.replicates.get_mut(at) {
+            replicates.add((index % REPLICATES as u64) as usize, xyz);
+        }
+        if let (Some(guides), Some(features)) = (&self.guides, row.features.get_mut(at)) {
+            let seen = guides.seen(self.kernel.scene, &traced.ray);
+            features.add(seen.albedo, seen.normal.to_array());
+        }
+        if let Some(shares) = &self.shares {
+            for lane in 0..N {
+                for &(band, weight) in shares.at(traced.offset + lane as u32) {
+                    row.add_band(at, band as usize, traced.radiance[lane] * weight);
+                }
+            }
+        }
+    }
+}
+
+/// The random numbers of a pixel's samples: of one net, or of independent ones in turn.
+enum Numbers {
+    One(PixelSamples),
+    Replicates(Box<[PixelSamples; REPLICATES]>),
+}
+
+impl Numbers {
+    fn new(pixel: PixelSamples, replicates: bool) -> Self {
+        match replicates {
+            false => Self::One(pixel),
+            true => Self::Replicates(Box::new(std::array::from_fn(|replicate| pixel.replicate(replicate as u32)))),
+        }
+    }
+
+    #[inline]
+    fn sample(&self, index: u64) -> Sampler {
+        let count = REPLICATES as u64;
+        match self {
+            Self::One(pixel) => pixel.sample(index),
+            Self::Replicates(pixels) => pixels[(index % count) as usize].sample(index / count),
+        }
+    }
+}
+
+/// [`render`](super::render) into a film with layers.
+pub fn render_layers(
+    recorder: &Recorder,
+    layers: &mut Layers,
+    samples: Range<u64>,
+    progress: &dyn Progress,
+    cancel: &AtomicBool,
+) {
+    let render_row = match recorder.kernel.scene.settings.lanes {
+        1 => Recorder::row::<1>,
+        4 => Recorder::row::<4>,
+        _ => Recorder::row::<8>,
+    };
+    let window = layers.film().window();
+    let mut rows = layers.rows_mut();
+    for pass in passes(samples) {
+        rows.par_iter_mut().zip(window.y0..window.y0 + window.height).for_each(|(row, y)| {
+            if !cancel.load(Ordering::Relaxed) {
+                render_row(recorder, row, [window.x0, y], &pass);
+                progress.advance(u64::from(window.width) * (pass.end - pass.start));
+            }
+        });
+    }
+}
