@@ -32,18 +32,11 @@ pub enum Encoding {
 }
 
 impl Raster {
-    pub fn texels(&self) -> usize {
-        match &self.samples {
-            Samples::Grey(values) => values.len(),
-            Samples::Rgb(values) => values.len(),
-        }
-    }
-
-    /// R, G and B of a texel, by its place in the rows.
-    pub fn rgb(&self, texel: usize) -> [f32; 3] {
-        match &self.samples {
-            Samples::Grey(values) => [values[texel]; 3],
-            Samples::Rgb(values) => values[texel],
+    /// R, G and B of all texels.
+    pub fn into_rgb(self) -> Vec<[f32; 3]> {
+        match self.samples {
+            Samples::Grey(values) => values.into_iter().map(|value| [value; 3]).collect(),
+            Samples::Rgb(values) => values,
         }
     }
 }

@@ -3,6 +3,7 @@
 //! Where an error is expected at a place, the scene holds the mark `§` right before it; it is removed before the run.
 
 mod files;
+mod pictures;
 mod scenes;
 mod wounded;
 

@@ -3,6 +3,7 @@
 #![allow(dead_code, reason = "each test binary uses a part")]
 
 pub mod lanes;
+pub mod paper;
 pub mod pictures;
 
 use spectrel::film::{Film, Window};
