@@ -3,7 +3,7 @@
 //! Light and data flow one way:
 //!
 //! ```text
-//! scene.toml, materials/*.toml, spectra/*.toml
+//! scene.toml, materials/*.toml, spectra/*.toml, pictures (texture)
 //!     → scene::describe   what the files say, with the place of every value
 //!     → scene::resolve    names become data, units become SI and nm, every check is made
 //!     → scene::needs      which physics this scene uses, and why
@@ -34,7 +34,9 @@ pub mod fresnel;
 pub mod geometry;
 pub mod image;
 pub mod light;
+pub mod memory;
 pub mod render;
 pub mod sampler;
 pub mod scene;
 pub mod spectrum;
+pub mod texture;

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use spectrel::spectrum::{
-    Arena, ColorMatching, Daylight, Density, Library, Line, NODE_COUNT, Nodes, Observer, Outside, RgbSpace, Spectrum,
-    Table, Upsampler, bradford, ciede2000, lab_from_xyz, luminance, tristimulus, tristimulus_1nm, white_xyz,
-    white_xyz_1nm,
+    Arena, Chromaticities, ColorMatching, Daylight, Density, Lanes, Library, Line, NODE_COUNT, Nodes, Observer,
+    Outside, RgbSpace, Sigmoid, Spectrum, Table, Tint, UpsampleTable, Upsampler, bradford, ciede2000, lab_from_xyz,
+    luminance, tristimulus, tristimulus_1nm, white_xyz, white_xyz_1nm,
 };
 
 fn library() -> Library {
@@ -226,4 +226,79 @@ fn colours_survive_the_way_to_a_reflectance_and_back() {
         assert!(far_apart(exact, corner) < 1e-4, "{corner:?} {exact:?}");
     }
     assert!(upsampler.reflectance([1.1, 0.0, 0.0]).is_err() && upsampler.reflectance([f64::NAN, 0.0, 0.0]).is_err());
+}
+
+/// ΔE2000 of colours that go through a table and back, sorted; the colours are random and the same every day.
+fn table_errors(library: &Library, table: &UpsampleTable, space: RgbSpace) -> Vec<f64> {
+    let upsampler = Upsampler::for_space(library, space).unwrap();
+    let mut random: u64 = 0x1234567;
+    let mut unit = || {
+        random ^= random << 13;
+        random ^= random >> 7;
+        random ^= random << 17;
+        (random >> 40) as f64 / f64::from(1 << 24)
+    };
+    let mut errors: Vec<f64> = (0..3000)
+        .map(|_| {
+            let rgb = [unit(), unit(), unit()];
+            let tint = table.tint(rgb.map(|value| value as f32));
+            let spectrum = Spectrum::Sigmoid(Sigmoid(tint.coefficients.map(f64::from))).scaled(f64::from(tint.scale));
+            let lab = |rgb| lab_from_xyz(space.xyz_from_rgb().apply(rgb), space.white_xyz());
+            ciede2000(lab(rgb), lab(upsampler.rgb(&spectrum)))
+        })
+        .collect();
+    errors.sort_by(f64::total_cmp);
+    errors
+}
+
+#[test]
+fn colours_survive_the_table_for_pictures() {
+    let library = library();
+    let radiance = |space| UpsampleTable::for_radiance(&library, space).unwrap();
+    let reflectance = UpsampleTable::for_reflectance(&library).unwrap();
+    for (name, table, space, limits) in [
+        ("reflectance", reflectance, RgbSpace::Srgb, [0.08, 0.3, 1.1]),
+        ("radiance", radiance(RgbSpace::Srgb), RgbSpace::Srgb, [0.006, 0.05, 0.5]),
+        ("radiance", radiance(RgbSpace::DisplayP3), RgbSpace::DisplayP3, [0.01, 0.1, 2.5]),
+        ("radiance", radiance(RgbSpace::Rec2020), RgbSpace::Rec2020, [0.03, 0.3, 5.0]),
+        ("radiance", radiance(RgbSpace::AcesCg), RgbSpace::AcesCg, [0.05, 1.5, 6.0]),
+    ] {
+        let errors = table_errors(&library, &table, space);
+        let mean = errors.iter().sum::<f64>() / errors.len() as f64;
+        let found = [mean, errors[errors.len() * 99 / 100], errors[errors.len() - 1]];
+        println!("{name} in {}: ΔE mean {:.4}, 99 % {:.3}, largest {:.2}", space.name(), found[0], found[1], found[2]);
+        assert!(found.iter().zip(limits).all(|(found, limit)| *found < limit), "{name} in {space:?}: {found:?}");
+    }
+}
+
+#[test]
+fn greys_of_the_tables_are_flat_and_exact() {
+    let library = library();
+    let radiance = UpsampleTable::for_radiance(&library, RgbSpace::Srgb).unwrap();
+    let reflectance = UpsampleTable::for_reflectance(&library).unwrap();
+    let positions = Lanes([0.0, 0.2, 0.4, 0.5, 0.6, 0.8, 0.9, 1.0]);
+    for grey in [1e-6f32, 0.003, 0.18, 0.5, 0.7, 1.0, 3.7, 1e6] {
+        assert_eq!(radiance.tint([grey; 3]).at(positions), Lanes::splat(grey));
+        let seen = reflectance.tint([grey.min(1.0); 3]).at(positions);
+        assert!(seen.0.iter().all(|value| (value / grey.min(1.0) - 1.0).abs() < 7e-5 && *value == seen[0]), "{seen:?}");
+    }
+    assert_eq!(radiance.tint([0.0; 3]), Tint::BLACK);
+}
+
+#[test]
+fn chromaticities_of_files_are_known_or_converted() {
+    for space in RgbSpace::ALL {
+        let stated = space.chromaticities();
+        assert_eq!(stated.space(), Some(space));
+        let white = stated.to(RgbSpace::Rec2020).unwrap().apply([1.0; 3]);
+        assert!(far_apart(white, [1.0; 3]) < 1e-12, "{space:?}: {white:?}");
+    }
+    // Files of XYZ: no luminance in X and Z.
+    let xyz = Chromaticities { primaries_xy: [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]], white_xy: [1.0 / 3.0, 1.0 / 3.0] };
+    let rows = xyz.xyz_from_rgb().unwrap();
+    assert!(far_apart(rows.apply([0.3, 0.5, 0.9]), [0.3, 0.5, 0.9]) < 1e-12 && xyz.space().is_none());
+    for [x, y] in [[0.3, 0.3], [f64::NAN, 0.2]] {
+        let none = Chromaticities { primaries_xy: [[0.6, 0.3], [x, y], [0.3, 0.3]], white_xy: [0.31, 0.33] };
+        assert!(none.xyz_from_rgb().is_none(), "{x} {y}");
+    }
 }

@@ -2,6 +2,7 @@
 
 use super::{SceneArgs, show};
 use crate::geometry::{Mesh, Shape};
+use crate::light::Source;
 use crate::scene::describe::ExposureValue;
 use crate::scene::{Decision, Interface, MediumId, Needs, Overrides, Scene, SceneError, Surface, listed, resolve};
 use clap::Args;
@@ -91,7 +92,7 @@ fn report(scene: &Scene) -> Report {
         white_balance: scene.picture.white_balance.clone(),
         observer: scene.picture.observer.about.name.clone(),
         outside: scene.medium(MediumId::OUTSIDE).name.clone(),
-        lights: scene.lights.emitters().len(),
+        lights: scene.lights.emitters().iter().filter(|emitter| emitter.source != Source::Map).count(),
         objects: objects.collect(),
         physics: Needs::of(scene).decisions,
         data: data(scene),

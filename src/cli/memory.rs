@@ -1,13 +1,11 @@
-//! Whether a picture fits into memory: asked before a render, for systems that promise memory they do not have end the
-//! program once it is used.
+//! Whether a picture fits into memory.
 
 use crate::film::Window;
+use crate::memory::{GIB, available_bytes};
 use crate::scene::SceneError;
 
 /// Bytes a pixel takes beside the film while it is developed (XYZ and RGB) and encoded (all files at once).
 const DEVELOPED_BYTES: f64 = 96.0;
-
-const GIB: f64 = (1u64 << 30) as f64;
 
 /// Bytes of a channel beside the picture: gathered, and encoded.
 const CHANNEL_BYTES: usize = 12;
@@ -29,12 +27,4 @@ pub fn check(window: Window, film_bytes: u64, channels: usize) -> Result<(), Sce
         }
         _ => Ok(()),
     }
-}
-
-/// What Linux says; other systems refuse by themselves when too much is asked for.
-fn available_bytes() -> Option<f64> {
-    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
-    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
-    let kib: f64 = line.split_whitespace().next()?.parse().ok()?;
-    Some(kib * 1024.0)
 }

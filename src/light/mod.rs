@@ -1,14 +1,19 @@
 //! Where light comes from: shapes that shine, suns, and the environment around everything.
 //!
-//! A shape or a sun is chosen mostly by its power and sampled over the solid angle it covers. The environment here is smooth, so paths find
-//! it best by following the surface they leave; it is never sampled by itself.
+//! A shape, a sun or a picture of the surroundings is chosen mostly by its power; the first two are sampled over the solid angle they cover, a
+//! picture by its luminance ([`Map`]). Surroundings that are constant or a gradient are smooth, so paths find them best by following the
+//! surface they leave; they are never sampled by themselves.
 
+mod distribution;
+mod grid;
+mod map;
 mod sun;
 
+pub use map::{Look, Map, mean_over_sphere};
 pub use sun::Sun;
 
 use crate::geometry::{Hit, ShapeId, Side, Target, World};
-use crate::spectrum::{Lanes, SpectrumId, Tables};
+use crate::spectrum::{Lanes, SpectrumId, Tables, Tint};
 use glam::Vec3;
 
 /// What an emitter is.
@@ -20,20 +25,46 @@ pub enum Source {
         two_sided: bool,
     },
     Sun(Sun),
+    /// The picture of [`Environment::Map`].
+    Map,
 }
 
 /// A light that can be aimed at.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emitter {
     pub source: Source,
-    /// W m⁻² sr⁻¹ nm⁻¹, the same in all directions.
+    /// W m⁻² sr⁻¹ nm⁻¹, the same in all directions; of a picture, what is white in it.
     pub radiance: SpectrumId,
     /// Luminous power in any unit common to all emitters: how often this one is chosen.
     pub power: f64,
 }
 
+/// Spectral radiance, W m⁻² sr⁻¹ nm⁻¹: a spectrum, in the colour of a texel if it comes from a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Radiance {
+    pub spectrum: SpectrumId,
+    pub tint: Option<Tint>,
+}
+
+impl Radiance {
+    #[inline]
+    pub fn at<const N: usize>(&self, tables: &Tables, offset: u32) -> Lanes<N> {
+        let spectrum = tables.get(self.spectrum, offset);
+        match self.tint {
+            None => spectrum,
+            Some(tint) => spectrum * tint.at(tables.positions(offset)),
+        }
+    }
+}
+
+impl From<SpectrumId> for Radiance {
+    fn from(spectrum: SpectrumId) -> Self {
+        Self { spectrum, tint: None }
+    }
+}
+
 /// The light that comes from infinitely far away.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub enum Environment {
     #[default]
     Dark,
@@ -44,22 +75,7 @@ pub enum Environment {
         horizon: SpectrumId,
         zenith: SpectrumId,
     },
-}
-
-impl Environment {
-    /// Spectral radiance that arrives from `direction`.
-    #[inline]
-    pub fn radiance<const N: usize>(&self, tables: &Tables, direction: Vec3, offset: u32) -> Lanes<N> {
-        match *self {
-            Self::Dark => Lanes::ZERO,
-            Self::Constant(radiance) => tables.get(radiance, offset),
-            Self::Gradient { nadir, horizon, zenith } => {
-                let pole = if direction.z > 0.0 { zenith } else { nadir };
-                let share = direction.z.abs().min(1.0);
-                tables.get::<N>(horizon, offset) * (1.0 - share) + tables.get::<N>(pole, offset) * share
-            }
-        }
-    }
+    Map(Box<Map>),
 }
 
 /// All lights of a scene.
@@ -72,6 +88,8 @@ pub struct Lights {
     of_shape: Vec<Option<u32>>,
     /// So many emitters at the end are suns.
     suns: usize,
+    /// How often the picture of the surroundings is chosen.
+    map: f32,
     pub environment: Environment,
 }
 
@@ -79,11 +97,11 @@ pub struct Lights {
 #[derive(Clone, Copy, Debug)]
 pub struct LightSample {
     pub direction: Vec3,
-    /// Infinite for a sun.
+    /// Infinite for a sun and for the surroundings.
     pub distance: f32,
-    /// None for a sun.
+    /// None for a sun and for the surroundings.
     pub target: Option<Target>,
-    pub radiance: SpectrumId,
+    pub radiance: Radiance,
     /// Per steradian, with the choice of the light.
     pub pdf: f32,
 }
@@ -100,7 +118,10 @@ impl Lights {
                 of_shape[id.0 as usize] = Some(index as u32);
             }
         }
-        Self { emitters, cumulative, of_shape, suns, environment }
+        let map = emitters.iter().position(|emitter| emitter.source == Source::Map);
+        let mut lights = Self { emitters, cumulative, of_shape, suns, map: 0.0, environment };
+        lights.map = map.map_or(0.0, |index| lights.probability(index));
+        lights
     }
 
     pub fn emitters(&self) -> &[Emitter] {
@@ -123,9 +144,20 @@ impl Lights {
                 direction: sun.sample(u),
                 distance: f32::INFINITY,
                 target: None,
-                radiance,
+                radiance: radiance.into(),
                 pdf: sun.pdf() * probability,
             }),
+            Source::Map => {
+                let Environment::Map(map) = &self.environment else { return None };
+                let (direction, Look { tint, pdf }) = map.sample(u)?;
+                Some(LightSample {
+                    direction,
+                    distance: f32::INFINITY,
+                    target: None,
+                    radiance: Radiance { spectrum: radiance, tint: Some(tint) },
+                    pdf: pdf * probability,
+                })
+            }
             Source::Shape { id, two_sided } => {
                 let toward = world.shape(id)?.sample_toward(from, u)?;
                 let front = toward.normal.dot(toward.direction) < 0.0;
@@ -133,7 +165,7 @@ impl Lights {
                     direction: toward.direction,
                     distance: toward.distance,
                     target: Some(Target { shape: id, facet: toward.facet }),
-                    radiance,
+                    radiance: radiance.into(),
                     pdf: toward.pdf * probability,
                 })
             }
@@ -146,6 +178,26 @@ impl Lights {
         let Emitter { source, radiance, .. } = self.emitters[self.of_shape[hit.shape.0 as usize]? as usize];
         let both = matches!(source, Source::Shape { two_sided: true, .. });
         (hit.side == Side::Outside || both).then_some(radiance)
+    }
+
+    /// What the surroundings send from a direction, and the density with which [`Self::sample`] gives it, per steradian.
+    #[inline]
+    pub fn environment<const N: usize>(&self, tables: &Tables, direction: Vec3, offset: u32) -> (Lanes<N>, f32) {
+        let radiance = match &self.environment {
+            Environment::Dark => Lanes::ZERO,
+            Environment::Constant(radiance) => tables.get(*radiance, offset),
+            Environment::Gradient { nadir, horizon, zenith } => {
+                let pole = if direction.z > 0.0 { zenith } else { nadir };
+                let share = direction.z.abs().min(1.0);
+                tables.get::<N>(*horizon, offset) * (1.0 - share) + tables.get::<N>(*pole, offset) * share
+            }
+            Environment::Map(map) => {
+                let Look { tint, pdf } = map.look(direction);
+                let radiance = Radiance { spectrum: map.light(), tint: Some(tint) };
+                return (radiance.at(tables, offset), pdf * self.map);
+            }
+        };
+        (radiance, 0.0)
     }
 
     /// The suns in a direction, each with the density with which [`Self::sample`] gives it, per steradian.

@@ -65,6 +65,9 @@ impl<'a> Kernel<'a> {
     pub fn new(scene: &'a Scene, needs: &'a Needs) -> Self {
         let nodes = Nodes::new(&needs.wavelength_density);
         let mut tables = scene.spectra.tabulate(&nodes, scene.settings.lanes as usize);
+        if needs.pictures {
+            tables.push_positions(&nodes);
+        }
         let observer = tables.push_observer(&nodes.observer_weights(&scene.picture.observer));
         let sampler = match scene.settings.sampler {
             SamplerName::Sobol => sampler::Kind::Sobol,

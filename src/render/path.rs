@@ -123,7 +123,10 @@ impl Kernel<'_> {
     #[inline]
     fn environment<const N: usize>(&self, path: &Path<N>) -> Lanes<N> {
         let (lights, direction) = (&self.scene.lights, path.ray.direction);
-        let mut arriving = lights.environment.radiance(&self.tables, direction, path.offset);
+        let (mut arriving, map_pdf) = lights.environment(&self.tables, direction, path.offset);
+        if map_pdf > 0.0 {
+            arriving *= power_heuristic(path.pdf, map_pdf);
+        }
         for (radiance, light_pdf) in lights.suns(direction) {
             arriving += self.tables.get(radiance, path.offset) * power_heuristic(path.pdf, light_pdf);
         }

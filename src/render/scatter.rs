@@ -98,7 +98,7 @@ impl Kernel<'_> {
         if self.scene.world.occluded(&shadow, light.distance, light.target) {
             return Lanes::ZERO;
         }
-        self.tables.get::<N>(light.radiance, offset)
+        light.radiance.at(&self.tables, offset)
             * self.transmittance(medium, light.distance, offset)
             * self.compression(medium, offset)
     }

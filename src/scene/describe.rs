@@ -4,6 +4,7 @@
 //! and flattened structures lose it.
 
 use super::numbers::{Finite, Length, Lengths, Numbers};
+pub use super::pictures::{ColorSpaceName, EnvironmentImage};
 use crate::fresnel::FresnelModel;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -172,6 +173,7 @@ pub enum ExposureValue {
 pub enum Environment {
     Constant(Emission),
     Gradient(Box<Gradient>),
+    Image(Box<EnvironmentImage>),
 }
 
 /// Radiance by direction: `nadir` straight down, `horizon` level, `zenith` straight up (+z), linear in the sine of the

@@ -100,7 +100,7 @@ deserialize_by_form!(
 );
 
 impl<'de> Forms<'de> for Environment {
-    const EXPECTED: &'static str = "one kind of environment, `constant` or `gradient`";
+    const EXPECTED: &'static str = "one kind of environment: `constant`, `gradient` or `image`";
 
     fn table<A: MapAccess<'de>>(table: A) -> Result<Self, A::Error> {
         one_kind(table, |table| Self::deserialize(table))

@@ -5,6 +5,7 @@ mod error;
 mod forms;
 mod needs;
 mod numbers;
+mod pictures;
 mod resolve;
 mod words;
 

@@ -12,6 +12,8 @@ pub struct Needs {
     pub wavelength_density: Density,
     /// Whether there are lights to aim at and surfaces that can be aimed from.
     pub light_sampling: bool,
+    /// Whether anything takes its colour from a picture.
+    pub pictures: bool,
     pub decisions: Vec<Decision>,
 }
 
@@ -39,6 +41,7 @@ impl Needs {
         Self {
             wavelength_density: Density::with_lines(lines.iter().copied()),
             light_sampling: light_sampling(scene).used,
+            pictures: pictures(scene),
             decisions,
         }
     }
@@ -67,7 +70,8 @@ pub fn listed(names: &[&str]) -> String {
 fn light_lines(scene: &Scene) -> Vec<f64> {
     let lights = scene.lights.emitters().iter().map(|emitter| emitter.radiance);
     let environment = match scene.lights.environment {
-        Environment::Dark => vec![],
+        // The light of a picture is among the emitters.
+        Environment::Dark | Environment::Map(_) => vec![],
         Environment::Constant(id) => vec![id],
         Environment::Gradient { nadir, horizon, zenith } => vec![nadir, horizon, zenith],
     };
@@ -170,14 +174,23 @@ fn light_sampling(scene: &Scene) -> Decision {
     }
 }
 
+fn pictures(scene: &Scene) -> bool {
+    matches!(scene.lights.environment, Environment::Map(_))
+}
+
 fn environment(scene: &Scene) -> Decision {
-    match scene.lights.environment {
+    match &scene.lights.environment {
         Environment::Dark => decision("environment", false, "none"),
         Environment::Constant(_) => {
             decision("environment", true, "constant: found by the directions that surfaces choose")
         }
         Environment::Gradient { .. } => {
             decision("environment", true, "gradient: found by the directions that surfaces choose")
+        }
+        Environment::Map(map) => {
+            let [width, height] = map.size();
+            let reason = format!("picture of {width} × {height} texels: its bright ones are aimed at as lights are");
+            decision("environment", true, reason)
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The spectra of a scene, each once, and their values at the nodes that a render uses.
 
-use super::{LUMENS_PER_WATT, Lanes, NODE_COUNT, Nodes, Spectrum, Xyz};
+use super::{LUMENS_PER_WATT, Lanes, NODE_COUNT, Nodes, Sigmoid, Spectrum, Xyz};
 
 /// One spectrum of an [`Arena`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -36,7 +36,7 @@ impl Arena {
 
     /// The values of every spectrum at every node, for paths of `lanes` wavelengths.
     pub fn tabulate(&self, nodes: &Nodes, lanes: usize) -> Tables {
-        let mut tables = Tables { values: Vec::with_capacity(self.len() * NODE_COUNT), lanes };
+        let mut tables = Tables { values: Vec::with_capacity(self.len() * NODE_COUNT), lanes, positions: None };
         for spectrum in &self.spectra {
             tables.push(&nodes.tabulate(spectrum));
         }
@@ -51,6 +51,7 @@ impl Arena {
 pub struct Tables {
     values: Vec<f32>,
     lanes: usize,
+    positions: Option<SpectrumId>,
 }
 
 impl Tables {
@@ -67,6 +68,18 @@ impl Tables {
     pub fn push_observer(&mut self, by_node: &[Xyz]) -> [SpectrumId; 3] {
         let scale = f64::from(self.sets()) * LUMENS_PER_WATT;
         [0, 1, 2].map(|axis| self.push(&by_node.iter().map(|weight| (weight[axis] * scale) as f32).collect::<Vec<_>>()))
+    }
+
+    /// Appends where the nodes stand in the visible range, 0…1: what a [`Tint`](super::Tint) is computed from.
+    pub fn push_positions(&mut self, nodes: &Nodes) {
+        let by_node: Vec<f32> = (0..NODE_COUNT).map(|i| Sigmoid::position(nodes.wavelength_nm(i)) as f32).collect();
+        self.positions = Some(self.push(&by_node));
+    }
+
+    /// Where the lanes stand in the visible range, 0…1, once [`Self::push_positions`] has told.
+    #[inline]
+    pub fn positions<const N: usize>(&self, offset: u32) -> Lanes<N> {
+        self.positions.map_or(Lanes::ZERO, |id| self.get(id, offset))
     }
 
     /// How many sets of wavelengths there are.

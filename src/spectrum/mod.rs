@@ -6,7 +6,8 @@
 //! - `integrate`: exact integrals of products of spectra; `observer`: the CIE observers.
 //! - `nodes`: the wavelengths that the renderer uses, and how they sample an integral; `lanes`: those of one path.
 //! - `arena`: the spectra of a scene and their tables; `bins`: intervals of wavelength for spectral pictures.
-//! - `color`, `spaces`, `delta_e`, `upsample`: from XYZ to RGB, to a colour difference, and from RGB to a reflectance.
+//! - `color`, `spaces`, `delta_e`, `upsample`: from XYZ to RGB, to a colour difference, and from RGB to a reflectance;
+//!   `upsample_table` does it for the texels of pictures, `tint` is what it makes of one.
 //!
 //! Wavelengths are vacuum wavelengths in nm; what reaches a picture uses `libm`, so that every machine agrees.
 
@@ -30,8 +31,10 @@ mod rii_page;
 mod sigmoid;
 mod spaces;
 mod table;
+mod tint;
 mod toml_file;
 mod upsample;
+mod upsample_table;
 
 pub use about::{About, Confidence, Dataset, Ior, Quantity, Sample, Source};
 pub use arena::{Arena, SpectrumId, Tables};
@@ -49,9 +52,11 @@ pub use library::{Library, MaterialText};
 pub use nodes::{Density, NODE_COUNT, Nodes};
 pub use observer::{ColorMatching, Observer};
 pub use sigmoid::Sigmoid;
-pub use spaces::{RgbSpace, decode_srgb, encode_srgb, hex_from_srgb, srgb_from_hex};
+pub use spaces::{Chromaticities, RgbSpace, decode_srgb, encode_srgb, hex_from_srgb, srgb_from_hex};
 pub use table::{Outside, Table};
+pub use tint::Tint;
 pub use upsample::Upsampler;
+pub use upsample_table::UpsampleTable;
 
 /// First and last wavelength that integrals, observers and the renderer use, nm.
 pub const LAMBDA_MIN_NM: f64 = 360.0;

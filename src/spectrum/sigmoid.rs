@@ -10,6 +10,12 @@ use super::{LAMBDA_MAX_NM, LAMBDA_MIN_NM};
 pub struct Sigmoid(pub [f64; 3]);
 
 impl Sigmoid {
+    /// The constant one of a grey between 0 and 1, both excluded: f = 1/2 + x / (2 √(1 + x²)) solved for x.
+    pub(super) fn grey(value: f64) -> Self {
+        let shift = 2.0 * value - 1.0;
+        Self([0.0, 0.0, shift / libm::sqrt(1.0 - shift * shift)])
+    }
+
     pub fn at(&self, nm: f64) -> f64 {
         let x = self.argument(nm);
         // For large x the quotient is ±1 to the last digit; keep ∞/∞ out.

@@ -1,7 +1,7 @@
 //! RGB spaces: matrices derived from primaries and white in f64, never the rounded ones of the standards, and the sRGB
 //! transfer curve.
 
-use super::color::{Matrix3, Xyz, xyz_from_xy};
+use super::color::{Matrix3, Xyz, bradford, xyz_from_xy};
 
 /// The RGB spaces that pictures are written in. All linear; encoding is separate.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -64,16 +64,55 @@ impl RgbSpace {
         xyz_from_xy(self.white_xy())
     }
 
-    /// Linear RGB to XYZ (SMPTE RP 177-1993): the primaries, scaled so that (1, 1, 1) is the white.
+    pub fn chromaticities(self) -> Chromaticities {
+        Chromaticities { primaries_xy: self.primaries_xy(), white_xy: self.white_xy() }
+    }
+
+    /// Linear RGB to XYZ: (1, 1, 1) to the white.
     pub fn xyz_from_rgb(self) -> Matrix3 {
-        let primaries = Matrix3(self.primaries_xy().map(xyz_from_xy)).transposed();
-        let Some(inverse) = primaries.inverse() else { return Matrix3::IDENTITY };
-        primaries.after(&Matrix3::diagonal(inverse.apply(self.white_xyz())))
+        self.chromaticities().xyz_from_rgb().unwrap_or(Matrix3::IDENTITY)
     }
 
     /// XYZ relative to its white to linear RGB.
     pub fn rgb_from_xyz(self) -> Matrix3 {
         self.xyz_from_rgb().inverse().unwrap_or(Matrix3::IDENTITY)
+    }
+}
+
+/// What a file may say of its RGB: chromaticities (x, y) of red, green and blue, and of (1, 1, 1).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Chromaticities {
+    pub primaries_xy: [[f64; 2]; 3],
+    pub white_xy: [f64; 2],
+}
+
+/// Files state chromaticities with three or four digits.
+const SAME_XY: f64 = 2e-3;
+
+impl Chromaticities {
+    /// Linear RGB to XYZ (SMPTE RP 177-1993): the primaries, scaled so that (1, 1, 1) is the white, Y = 1. `None` if they
+    /// are no three colours, or make no white.
+    pub fn xyz_from_rgb(&self) -> Option<Matrix3> {
+        // A primary without luminance, as in files that hold XYZ, has no Y to divide by.
+        let xyz = |[x, y]: [f64; 2]| if y == 0.0 { [x, y, 1.0 - x] } else { xyz_from_xy([x, y]) };
+        let primaries = Matrix3(self.primaries_xy.map(xyz)).transposed();
+        let scales = primaries.inverse()?.apply(xyz_from_xy(self.white_xy));
+        let matrix = primaries.after(&Matrix3::diagonal(scales));
+        (scales.iter().all(|scale| *scale > 0.0) && matrix.inverse().is_some()).then_some(matrix)
+    }
+
+    /// The space that these are the chromaticities of.
+    pub fn space(&self) -> Option<RgbSpace> {
+        let points = |c: Chromaticities| c.primaries_xy.into_iter().chain([c.white_xy]).flatten();
+        let same =
+            |space: &RgbSpace| points(space.chromaticities()).zip(points(*self)).all(|(a, b)| (a - b).abs() < SAME_XY);
+        RgbSpace::ALL.into_iter().find(same)
+    }
+
+    /// Linear RGB of these to linear RGB of a space, white to white.
+    pub fn to(&self, space: RgbSpace) -> Option<Matrix3> {
+        let adapted = bradford(xyz_from_xy(self.white_xy), space.white_xyz());
+        Some(space.rgb_from_xyz().after(&adapted).after(&self.xyz_from_rgb()?))
     }
 }
 

@@ -1,14 +1,14 @@
 //! From RGB to a reflectance: the sigmoid of `sigmoid` whose colour under D65 is the one given.
 //!
-//! W. Jakob & J. Hanika (2019) tabulate the fit; a scene has few colours, so each is fitted when it is read, by
-//! Levenberg–Marquardt on linear sRGB, from grey to the colour in steps. Colours that a reflectance can have come back
+//! W. Jakob & J. Hanika (2019) tabulate the fit, as `upsample_table` does for pictures; a scene itself names few colours, so
+//! each of those is fitted when it is read, by Levenberg–Marquardt on linear RGB, from grey to the colour in steps. Colours that a reflectance can have come back
 //! to 1e-6; near the corners of the sRGB cube nothing smooth reaches the colour, and [`Upsampler::rgb`] tells how far.
 
 use std::path::Path;
 
 use super::color::{Matrix3, bradford};
 use super::integrate::quadrature;
-use super::{Library, Observer, RgbSpace, Sigmoid, Spectrum, SpectrumError};
+use super::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, Library, Observer, RgbSpace, Sigmoid, Spectrum, SpectrumError};
 
 /// Fits reflectances to colours under D65 for the CIE 1931 observer.
 pub struct Upsampler {
@@ -17,13 +17,19 @@ pub struct Upsampler {
 }
 
 impl Upsampler {
+    /// For linear sRGB.
     pub fn new(library: &Library) -> Result<Self, SpectrumError> {
+        Self::for_space(library, RgbSpace::Srgb)
+    }
+
+    /// For linear RGB of a space; its white is the reflectance 1.
+    pub fn for_space(library: &Library, space: RgbSpace) -> Result<Self, SpectrumError> {
         let observer = library.observer(Observer::Cie1931)?;
         let d65 = library.illuminant("D65", Path::new(""))?;
         let light = &d65.spectrum;
         let white = super::white_xyz(light, &observer)?;
         let y = super::tristimulus(&[light], &observer)[1];
-        let rgb_from_xyz = RgbSpace::Srgb.rgb_from_xyz().after(&bradford(white, RgbSpace::Srgb.white_xyz()));
+        let rgb_from_xyz = space.rgb_from_xyz().after(&bradford(white, space.white_xyz()));
         let mut samples = Vec::new();
         quadrature(&[light], observer.y.wavelengths_nm(), 1, |nm, weight| {
             let scale = weight * light.at(nm) / y;
@@ -34,7 +40,23 @@ impl Upsampler {
         Ok(Self { samples })
     }
 
-    /// The linear sRGB of a reflectance under D65, white being (1, 1, 1).
+    /// The same integral by few wavelengths, for thousands of fits: each of the many is shared among the four nearest of
+    /// those every [`COARSE_NM`], such that cubics keep their integral.
+    pub(super) fn coarse(&self) -> Self {
+        let count = libm::round((LAMBDA_MAX_NM - LAMBDA_MIN_NM) / COARSE_NM) as usize + 1;
+        let mut samples: Vec<_> = (0..count).map(|i| (LAMBDA_MIN_NM + COARSE_NM * i as f64, [0.0; 3])).collect();
+        for (nm, weights) in &self.samples {
+            let position = (nm - LAMBDA_MIN_NM) / COARSE_NM;
+            let first = (position as usize).saturating_sub(1).min(count - 4);
+            let x = position - first as f64;
+            for (i, share) in cubic_shares(x).into_iter().enumerate() {
+                (0..3).for_each(|channel| samples[first + i].1[channel] += share * weights[channel]);
+            }
+        }
+        Self { samples }
+    }
+
+    /// The linear RGB of a reflectance under D65, white being (1, 1, 1).
     pub fn rgb(&self, reflectance: &Spectrum) -> [f64; 3] {
         let mut sum = [0.0; 3];
         for (nm, weights) in &self.samples {
@@ -44,7 +66,7 @@ impl Upsampler {
         sum
     }
 
-    /// A reflectance of a colour in linear sRGB, each channel 0…1. Grey is constant.
+    /// A reflectance of a colour in linear RGB, each channel 0…1. Grey is constant.
     pub fn reflectance(&self, rgb: [f64; 3]) -> Result<Spectrum, SpectrumError> {
         if let Some(&value) = rgb.iter().find(|value| !(0.0..=1.0).contains(*value)) {
             let what = "a channel of a reflectance's colour (linear sRGB)";
@@ -55,22 +77,20 @@ impl Upsampler {
             return Ok(Spectrum::Constant(r));
         }
         let grey = ((r + g + b) / 3.0).clamp(0.01, 0.99);
-        // f = 1/2 + x / (2 √(1 + x²)) solved for x.
-        let shift = 2.0 * grey - 1.0;
-        let mut fit = Sigmoid([0.0, 0.0, shift / libm::sqrt(1.0 - shift * shift)]);
+        let mut fit = Sigmoid::grey(grey);
         for step in 1..=STEPS {
             let t = f64::from(step) / f64::from(STEPS);
-            fit = self.fit(fit, rgb.map(|value| grey + (value - grey) * t));
+            fit = self.fit(fit, rgb.map(|value| grey + (value - grey) * t), CLOSE);
         }
         Ok(Spectrum::Sigmoid(fit))
     }
 
-    /// Levenberg–Marquardt from a start to the sigmoid nearest to a colour.
-    fn fit(&self, mut fit: Sigmoid, target: [f64; 3]) -> Sigmoid {
+    /// Levenberg–Marquardt from a start to the sigmoid nearest to a colour, or one whose error, squared, is below `close`.
+    pub(super) fn fit(&self, mut fit: Sigmoid, target: [f64; 3], close: f64) -> Sigmoid {
         let mut damping = 1e-6;
         let (mut error, mut jacobian) = self.linearise(&fit, target);
         for _ in 0..ITERATIONS {
-            if squares(error) < 1e-24 {
+            if squares(error) < close {
                 break;
             }
             let gradient = jacobian.transposed().apply(error);
@@ -117,6 +137,14 @@ impl Upsampler {
 
 const STEPS: u32 = 4;
 const ITERATIONS: usize = 40;
+const CLOSE: f64 = 1e-24;
+const COARSE_NM: f64 = 5.0;
+
+/// Lagrange's weights of the points 0, 1, 2, 3 at x.
+fn cubic_shares(x: f64) -> [f64; 4] {
+    let [a, b, c, d] = [x, x - 1.0, x - 2.0, x - 3.0];
+    [-b * c * d / 6.0, a * c * d / 2.0, -a * b * d / 2.0, a * b * c / 6.0]
+}
 
 fn squares(v: [f64; 3]) -> f64 {
     let sum: f64 = v.iter().map(|value| value * value).sum();

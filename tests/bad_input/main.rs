@@ -4,6 +4,7 @@
 
 mod files;
 mod meshes;
+mod pictures;
 mod scenes;
 mod wounded;
 

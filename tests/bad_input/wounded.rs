@@ -144,15 +144,23 @@ emission = { spectrum = { lines = [[435.8, 1], [546.1, 2]] }, luminance = 50 }
 shape.rectangle = { center = [0, 0, 50], size = [3, 4], normal = [0, 0, -1] }
 "#;
 
+/// [`EVERYTHING`] under a picture.
+fn under_a_picture() -> String {
+    let (before, after) = EVERYTHING.split_once("[environment]").expect("an environment");
+    let (_, after) = after.split_once("[materials.glass").expect("a material");
+    let image = "[environment.image]\nfile = \"data/sky.hdr\"\nilluminant = \"D50\"\nluminance = 200\nrotate = 30\ncolor_space = \"rec2020\"\n";
+    format!("{before}{image}[materials.glass{after}")
+}
+
 /// What resolves also renders: a part of them is, to see it.
 #[test]
 fn wounded_scenes_are_scenes_or_errors() {
     let library = Library::default();
     let mut random = Random(0x5eed);
-    for scene in [include_str!("../../scenes/tray.toml"), EVERYTHING] {
+    for scene in [include_str!("../../scenes/tray.toml"), EVERYTHING, &under_a_picture()] {
         let small = Overrides { width: Some(3), height: Some(2), samples: Some(1), ..Overrides::default() };
         let read = |text: &str, render: bool| {
-            let scene = resolve(Text::new("wounded.toml", text), &library, &small)?;
+            let scene = resolve(Text::new("tests/wounded.toml", text), &library, &small)?;
             Ok::<_, SceneError>(render.then(|| common::film(&scene)).map(drop))
         };
         read(scene, true).unwrap_or_else(|error| panic!("{error}"));

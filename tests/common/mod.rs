@@ -4,6 +4,8 @@
 
 pub mod command;
 pub mod lanes;
+pub mod paper;
+pub mod pictures;
 pub mod prism;
 
 use spectrel::film::{Film, Window};

@@ -1,4 +1,4 @@
-//! `docs/reference.md` is written from `src/scene/describe.rs`, so that it cannot go stale: run with `WRITE_REFERENCE=1` after
+//! `docs/reference.md` is written from `src/scene/describe.rs` and `pictures.rs`, so that it cannot go stale: run with `WRITE_REFERENCE=1` after
 //! a change there. Its examples are scenes that resolve.
 
 #[path = "../common/mod.rs"]
@@ -9,7 +9,8 @@ use parse::{Item, Kind};
 use spectrel::scene::Overrides;
 use std::fmt::Write;
 
-const SOURCE: &str = include_str!("../../src/scene/describe.rs");
+const SOURCE: &str =
+    concat!(include_str!("../../src/scene/describe.rs"), "\n", include_str!("../../src/scene/pictures.rs"));
 const PATH: &str = "docs/reference.md";
 
 /// How a scene's TOML shows each part: one example below the part's heading, put into a whole scene by [`whole`].
@@ -35,6 +36,10 @@ const EXAMPLES: &[(&str, &str)] = &[
     (
         "Gradient",
         "[environment.gradient]\nzenith = { spectrum = { daylight = 7000 }, luminance = 300 }\nhorizon = { spectrum = \"D65\", luminance = 120 }\nnadir = { spectrum = \"A\", luminance = 10 }",
+    ),
+    (
+        "Environment image",
+        "[environment.image]\nfile = \"data/sky.hdr\"\nilluminant = \"D65\"\nluminance = 400       # or scale = 1\nrotate = 30\ncolor_space = \"srgb\"",
     ),
     (
         "Emission",

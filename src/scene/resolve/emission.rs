@@ -1,6 +1,7 @@
 //! Lights: a spectrum and a strength become spectral radiance in W m⁻² sr⁻¹ nm⁻¹.
 
-use super::{Resolver, vector};
+use super::{Resolver, half_diagonal, surface, vector};
+use crate::geometry::Bounds;
 use crate::light::{Emitter, Environment, Source, Sun};
 use crate::scene::SceneError;
 use crate::scene::describe::{self, LightSpectrum, OwnLight};
@@ -12,7 +13,7 @@ use std::ops::Range;
 use toml::Spanned;
 
 /// cd/m². Single samples of a light with few wavelengths are brighter, and the film counts them up to 5e11.
-const BRIGHTEST: f64 = 1e11;
+pub const BRIGHTEST: f64 = 1e11;
 
 /// Mean diameter of the sun from the earth, degrees.
 const SUN_DEGREES: f64 = 0.533;
@@ -25,8 +26,14 @@ pub struct Resolved {
 }
 
 impl Resolver<'_> {
-    /// `area`: of the surface through which the environment lights the scene, scene units².
-    pub fn environment(&mut self, environment: &describe::Environment, area: f64) -> Result<Environment, SceneError> {
+    /// The light all around shapes within these bounds; one that is aimed at is added to the emitters.
+    pub fn environment(
+        &mut self,
+        environment: &describe::Environment,
+        bounds: &Bounds,
+        emitters: &mut Vec<Emitter>,
+    ) -> Result<Environment, SceneError> {
+        let area = surface(bounds);
         Ok(match environment {
             describe::Environment::Constant(emission) => {
                 let light = self.emission(emission, "the environment")?;
@@ -42,6 +49,12 @@ impl Resolver<'_> {
                     self.white_candidates.push((light.luminance * area / 3.0, light.id));
                 }
                 Environment::Gradient { nadir: nadir.id, horizon: horizon.id, zenith: zenith.id }
+            }
+            describe::Environment::Image(image) => {
+                let surroundings = self.surroundings(image)?;
+                self.white_candidates.push((surroundings.luminance * area, surroundings.map.light()));
+                emitters.push(surroundings.emitter(half_diagonal(bounds)));
+                Environment::Map(Box::new(surroundings.map))
             }
         })
     }
@@ -102,7 +115,7 @@ impl Resolver<'_> {
     }
 
     /// The spectrum, and whether its values are already radiance.
-    fn light_spectrum(
+    pub fn light_spectrum(
         &mut self,
         source: &LightSpectrum,
         span: &Range<usize>,
@@ -194,7 +207,7 @@ impl Resolver<'_> {
     }
 
     /// The factor that gives a spectrum a luminance or a radiance.
-    fn factor(&self, name: &str, value: f64, spectrum: &Spectrum, span: &Range<usize>) -> Result<f64, SceneError> {
+    pub fn factor(&self, name: &str, value: f64, spectrum: &Spectrum, span: &Range<usize>) -> Result<f64, SceneError> {
         let own = match name {
             "luminance" => luminance(spectrum, &self.observer_1931),
             _ => integrate(&[spectrum]),

@@ -10,6 +10,7 @@ mod provenance;
 mod settings;
 mod shapes;
 mod solids;
+mod surroundings;
 mod view;
 
 pub use settings::Overrides;
@@ -85,11 +86,11 @@ impl Resolver<'_> {
         let Objects { mut objects, shapes, mut emitters } = self.objects(&file.objects, &file.replace)?;
         let world = World::new(shapes).map_err(|error| self.text.whole(error))?;
         let environment = match &file.environment {
-            Some(environment) => self.environment(environment.get_ref(), surface(&world.bounds()))?,
+            Some(environment) => self.environment(environment.get_ref(), &world.bounds(), &mut emitters)?,
             None => Environment::Dark,
         };
         for sun in &file.suns {
-            emitters.push(self.sun(sun.get_ref(), f64::from(world.bounds().size().length()) / 2.0)?);
+            emitters.push(self.sun(sun.get_ref(), half_diagonal(&world.bounds()))?);
         }
         self.solids(&world, &mut objects);
         let view = self.view(&file.camera)?;
@@ -127,6 +128,14 @@ impl Resolver<'_> {
         Err(self.text.error(&number.span(), format!("{what} is {value}: it must be finite and above 0")))
     }
 
+    fn finite(&self, number: &Spanned<f64>, name: &str) -> Result<f64, SceneError> {
+        let value = *number.get_ref();
+        if value.is_finite() {
+            return Ok(value);
+        }
+        Err(self.text.error(&number.span(), format!("`{name}` is {value}: it must be finite")))
+    }
+
     fn not_negative(&self, number: &Spanned<f64>, name: &str) -> Result<f64, SceneError> {
         let value = *number.get_ref();
         if value >= 0.0 && value.is_finite() {
@@ -140,6 +149,11 @@ impl Resolver<'_> {
 fn surface(bounds: &Bounds) -> f64 {
     let [x, y, z] = if bounds.is_empty() { [1.0; 3] } else { bounds.size().to_array().map(f64::from) };
     2.0 * (x * y + y * z + z * x)
+}
+
+/// Half of the way from corner to corner: the radius of the ball around all shapes.
+fn half_diagonal(bounds: &Bounds) -> f64 {
+    f64::from(bounds.size().length()) / 2.0
 }
 
 /// Every nanometre at which light is computed.

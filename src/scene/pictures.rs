@@ -1,0 +1,41 @@
+//! What a scene file says of the pictures it takes light and colours from; a part of `describe`.
+
+use super::describe::{LightSpectrum, Number};
+use serde::Deserialize;
+use toml::Spanned;
+
+/// A picture of all directions by longitude and latitude, twice as wide as high (EXR or Radiance HDR). Its middle is towards
+/// +y, its top row straight up (+z), and who looks along +y sees it as it is: +x lies right of the middle. A texel's linear
+/// RGB becomes a smooth spectrum (Jakob & Hanika 2019) times the illuminant: what is grey in the file has the illuminant's
+/// spectrum.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EnvironmentImage {
+    /// Beside the scene file.
+    pub file: Spanned<String>,
+    /// The light that is white in the file; D65 unless given.
+    pub illuminant: Option<Spanned<LightSpectrum>>,
+    /// cd/m² of a texel that is white, RGB (1, 1, 1); 1 unless given.
+    pub scale: Option<Number>,
+    /// Instead of `scale`: the mean over all directions, cd/m², by the Y of the file's RGB.
+    pub luminance: Option<Number>,
+    /// Degrees about +z, against the clock from above; 0 unless given.
+    pub rotate: Option<Number>,
+    /// What the file says unless given; sRGB primaries if it says nothing.
+    pub color_space: Option<ColorSpaceName>,
+}
+
+/// Whose primaries the R, G and B of a file are. All are linear here.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+pub enum ColorSpaceName {
+    /// Of sRGB and ITU-R BT.709.
+    Srgb,
+    /// Of Display P3.
+    DisplayP3,
+    /// Of ITU-R BT.2020.
+    Rec2020,
+    /// AP1, with the white of ACES.
+    #[serde(rename = "acescg")]
+    AcesCg,
+}

@@ -1,0 +1,74 @@
+//! Pictures that scenes read: missing, broken, of the wrong kind, or holding what light cannot be.
+
+use super::*;
+
+fn surroundings(keys: &str) -> String {
+    [SMALL, CAMERA, SPHERE, "[environment.image]\n", keys, "\n"].concat()
+}
+
+const HDR: &str = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\nxxx@yyyA";
+
+#[test]
+fn a_good_picture_is_good() {
+    let outcome = render(surroundings("file = \"sky.hdr\""), &[("sky.hdr", HDR)], &["-q"]);
+    assert_eq!((outcome.code, outcome.stderr.as_str()), (Some(0), ""));
+}
+
+#[test]
+fn broken_pictures_are_told_with_the_place_and_the_file() {
+    let cut = &HDR[..HDR.len() - 1];
+    let huge = "#?RADIANCE\n\n-Y 1000000 +X 2000000\n";
+    for (file, content, says) in [
+        ("sky.hdr", cut, "the HDR ends in the middle"),
+        ("sky.hdr", "", "the HDR ends in the middle"),
+        ("sky.hdr", "P6 1 1\n", "does not begin with #?RADIANCE"),
+        ("sky.hdr", huge, "1000000 texels: they take"),
+        ("sky.hdr", huge, "bytes)"),
+        ("sky.exr", "v/1\u{1}\u{2}\0\0\0", "the EXR ends in the middle"),
+        ("sky.exr", "", "EXR"),
+        ("sky.exr", "nonsense of some length, more than a header has", "no EXR"),
+        ("sky.png", "\u{89}PNG", "no PNG"),
+        ("sky.jpg", "", "must end in .exr, .hdr or .png"),
+    ] {
+        refused_at_mark(&surroundings(&format!("file = §\"{file}\"")), &[(file, content)], &[file, says]);
+    }
+    refused_at_mark(&surroundings("file = §\"none.exr\""), &[], &["cannot read `none.exr`"]);
+    refused_at_mark(&surroundings("file = §\".\""), &[], &["must end in"]);
+}
+
+#[test]
+fn keys_of_surroundings_must_make_sense() {
+    let with = |keys: &str| surroundings(&format!("file = \"sky.hdr\"\n{keys}"));
+    for (keys, says) in [
+        ("scale = §-1", "`scale` is -1"),
+        ("scale = §nan", "`scale` is NaN"),
+        ("luminance = §inf", "`luminance` is inf"),
+        ("scale = 1\nluminance = §1", "both say how strong"),
+        ("rotate = §nan", "`rotate` is NaN"),
+        ("color_space = §\"srgbb\"", "did you mean `srgb`?"),
+        ("illuminant = §\"D655\"", "did you mean `d65`?"),
+        ("illuminant = { blackbody = §0 }", "`blackbody` is 0"),
+        ("§luminanse = 1", "did you mean `luminance`?"),
+    ] {
+        refused_at_mark(&with(keys), &[("sky.hdr", HDR)], &[says]);
+    }
+    let scaled = surroundings("file = §\"sky.hdr\"\nscale = 1e300");
+    refused_at_mark(&scaled, &[("sky.hdr", HDR)], &["the brightest texel has", "cd/m²", "smaller `scale`"]);
+    let black = surroundings("file = \"sky.hdr\"\nluminance = §5");
+    refused_at_mark(&black, &[("sky.hdr", "#?RADIANCE\n\n-Y 1 +X 1\n\0\0\0\0")], &["`sky.hdr` is black"]);
+    refused_at_mark(
+        &surroundings("§scale = 1").replace("§scale", "scale").replace("[environment", "§[environment"),
+        &[],
+        &["`file` is missing"],
+    );
+    let code = surroundings("file = §\"sky.png\"");
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("sky.png");
+    let mut encoder = png::Encoder::new(fs::File::create(&path).expect("a file"), 1, 1);
+    encoder.set_color(png::ColorType::Grayscale);
+    encoder.write_header().expect("a header").write_image_data(&[9]).expect("a pixel");
+    fs::write(folder.path().join("scene.toml"), code.replace('§', "")).expect("a file");
+    let outcome = spectrel(folder.path(), &["render", "scene.toml", "-q"]);
+    assert_eq!(outcome.code, Some(2));
+    assert!(outcome.stderr.contains("give an .exr or .hdr file"), "{}", outcome.stderr);
+}
