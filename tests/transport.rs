@@ -256,3 +256,31 @@ fn a_sun_gives_its_illuminance_and_mirrors_show_its_disk() {
     );
     check("a sun as wide as the sky", &dome("", &half_sky), 1024, 8, sky);
 }
+
+#[test]
+fn a_point_light_gives_its_intensity_within_its_cone() {
+    use std::f64::consts::PI;
+    let point = |keys: &str| format!("[[points]]\nposition = [1.5, 0, 2]\nspectrum = \"E\"\n{keys}\n");
+    // At r = 2.5 m, cos θ = 0.8: L = ρ/π I cos θ / r².
+    let at_origin = |candela: f64| 0.5 / PI * candela * 0.8 / 6.25;
+    let scene = |keys: &str| plane("[6, 0, 6]", &point(keys));
+    check("point light", &scene("luminous_intensity = 1000"), 4, 8, at_origin(1000.0));
+    check("point light by its flux", &scene("luminous_flux = 1000"), 512, 1, at_origin(1000.0 / (4.0 * PI)));
+    let toward = "direction = [-1.5, 0, -2]\n";
+    let cone = |keys: &str| scene(&format!("{toward}{keys}"));
+    let cap = 2.0 * PI * (1.0 - 15f64.to_radians().cos());
+    check("cone", &cone("cone_angle = 30\nluminous_flux = 100"), 4, 8, at_origin(100.0 / cap));
+    // The origin is off the axis, where the cone fades.
+    let axis = glam::DVec3::new(-1.5, 0.2, -2.0).normalize();
+    let cosine = axis.dot(glam::DVec3::new(-0.6, 0.0, -0.8));
+    let (full, none) = (2f64.to_radians().cos(), 10f64.to_radians().cos());
+    let t = (cosine - none) / (full - none);
+    assert!((0.1..0.9).contains(&t));
+    let keys = "direction = [-1.5, 0.2, -2]\ncone_angle = 20\nfade = 8\nluminous_intensity = 100";
+    // (The fade bends within what a wider picture would show.)
+    let narrow = scene(keys).replace("fov = 0.05", "fov = 0.005");
+    check("fading cone", &narrow, 4, 8, at_origin(100.0 * t * t * (3.0 - 2.0 * t)));
+    // Twice the metres, a quarter of the light.
+    let larger = scene("luminous_intensity = 1000").replace("meters_per_unit = 1", "meters_per_unit = 2");
+    check("larger scene", &larger, 4, 8, at_origin(1000.0) / 4.0);
+}

@@ -7,9 +7,11 @@
 mod distribution;
 mod grid;
 mod map;
+mod point;
 mod sun;
 
 pub use map::{Look, Map, mean_over_sphere};
+pub use point::{Cone, Point};
 pub use sun::Sun;
 
 use crate::geometry::{Hit, ShapeId, Side, Target, World};
@@ -25,6 +27,7 @@ pub enum Source {
         two_sided: bool,
     },
     Sun(Sun),
+    Point(Point),
     /// The picture of [`Environment::Map`].
     Map,
 }
@@ -33,7 +36,7 @@ pub enum Source {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emitter {
     pub source: Source,
-    /// W m⁻² sr⁻¹ nm⁻¹, the same in all directions; of a picture, what is white in it.
+    /// W m⁻² sr⁻¹ nm⁻¹, the same in all directions; of a picture, what is white in it; of a point, W sr⁻¹ nm⁻¹.
     pub radiance: SpectrumId,
     /// Luminous power in any unit common to all emitters: how often this one is chosen.
     pub power: f64,
@@ -102,8 +105,12 @@ pub struct LightSample {
     /// None for a sun and for the surroundings.
     pub target: Option<Target>,
     pub radiance: Radiance,
-    /// Per steradian, with the choice of the light.
+    /// Per steradian, with the choice of the light; of a point light the choice alone.
     pub pdf: f32,
+    /// What the radiance is multiplied by: 1, or of a point light irradiance per intensity.
+    pub strength: f32,
+    /// Whether no other way finds this light.
+    pub only: bool,
 }
 
 impl Lights {
@@ -146,7 +153,14 @@ impl Lights {
                 target: None,
                 radiance: radiance.into(),
                 pdf: sun.pdf() * probability,
+                strength: 1.0,
+                only: false,
             }),
+            Source::Point(point) => {
+                let (direction, distance, strength) = point.seen_from(from)?;
+                let (target, radiance) = (None, radiance.into());
+                Some(LightSample { direction, distance, target, radiance, pdf: probability, strength, only: true })
+            }
             Source::Map => {
                 let Environment::Map(map) = &self.environment else { return None };
                 let (direction, Look { tint, pdf }) = map.sample(u)?;
@@ -156,6 +170,8 @@ impl Lights {
                     target: None,
                     radiance: Radiance { spectrum: radiance, tint: Some(tint) },
                     pdf: pdf * probability,
+                    strength: 1.0,
+                    only: false,
                 })
             }
             Source::Shape { id, two_sided } => {
@@ -167,6 +183,8 @@ impl Lights {
                     target: Some(Target { shape: id, facet: toward.facet }),
                     radiance: radiance.into(),
                     pdf: toward.pdf * probability,
+                    strength: 1.0,
+                    only: false,
                 })
             }
         }

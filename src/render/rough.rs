@@ -6,7 +6,7 @@
 use super::Kernel;
 use super::media::MediaStack;
 use super::path::{Outcome, Path};
-use super::scatter::power_heuristic;
+use super::scatter::weight;
 use crate::bsdf::{Frame, RoughDielectric};
 use crate::geometry::{Hit, Ray, Side};
 use crate::sampler::Sampler;
@@ -94,7 +94,7 @@ impl Kernel<'_> {
             return Lanes::ZERO;
         }
         let arriving = self.arriving(&light, leaves, side, medium, offset);
-        value.f_cos * arriving * (power_heuristic(light.pdf, value.pdf) / light.pdf)
+        value.f_cos * arriving * weight(&light, value.pdf)
     }
 }
 

@@ -17,6 +17,13 @@ pub fn power_heuristic(taken: f32, other: f32) -> f32 {
     1.0 / (1.0 + ratio * ratio)
 }
 
+/// What a sample of a light counts, beside the `other` density of finding it by the surface.
+#[inline]
+pub fn weight(light: &LightSample, other: f32) -> f32 {
+    let share = if light.only { 1.0 } else { power_heuristic(light.pdf, other) };
+    share * light.strength / light.pdf
+}
+
 /// What is left of light from `wi` where a smooth normal stands for flat triangles: none from below the triangle, and no hard
 /// edge where the triangle turns away before the normal does.
 ///
@@ -81,7 +88,7 @@ impl Kernel<'_> {
         }
         let arriving = self.arriving(&light, hit, hit.side, path.media.current(), path.offset);
         let seen = terminator(hit, frame.z, light.direction);
-        value.f_cos * arriving * (seen * power_heuristic(light.pdf, value.pdf) / light.pdf)
+        value.f_cos * arriving * (seen * weight(&light, value.pdf))
     }
 
     /// What a point of a light sends to one side of a hit through the medium there, in the measure of a path's throughput.

@@ -31,6 +31,8 @@ pub struct SceneFile {
     pub picture: Picture,
     pub environment: Option<Spanned<Environment>>,
     #[serde(default)]
+    pub points: Vec<Spanned<PointLight>>,
+    #[serde(default)]
     pub suns: Vec<Spanned<SunLight>>,
     #[serde(default)]
     pub materials: BTreeMap<String, Spanned<Material>>,
@@ -199,6 +201,25 @@ pub struct SunLight {
     pub illuminance: Option<Number>,
     /// W m⁻² over 360–830 nm on a surface that faces it.
     pub irradiance: Option<Number>,
+}
+
+/// A light without size at a point, with one of `luminous_intensity` and `luminous_flux`. Smooth mirrors and glass do not show it: a
+/// small sphere that shines is seen everywhere. Needs `meters_per_unit`.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PointLight {
+    pub position: Vector,
+    pub spectrum: Spanned<LightSpectrum>,
+    /// cd, in the middle of the cone.
+    pub luminous_intensity: Option<Number>,
+    /// lm, in all directions together.
+    pub luminous_flux: Option<Number>,
+    /// Whereto its cone opens; it shines in all directions unless given.
+    pub direction: Option<Vector>,
+    /// From edge to edge, degrees.
+    pub cone_angle: Option<Number>,
+    /// How far inside of its edge the cone begins to fade, degrees; 0, a sharp edge, unless given.
+    pub fade: Option<Number>,
 }
 
 /// A spectrum with a strength: one of `luminance`, `radiance` and `scale`. It is the radiance in the medium that the light

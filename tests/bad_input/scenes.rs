@@ -296,3 +296,34 @@ fn settings_must_be_possible() {
         (scene_with("[picture]\nexposure = §65"), &["between −64 and 64"]),
     ]);
 }
+
+#[test]
+fn point_lights_that_cannot_be() {
+    let light = |keys: &str| {
+        let metres = "meters_per_unit = 0.001\n";
+        [metres, &scene_with(&format!("{SPHERE}[[points]]\nposition = [0, 0, 9]\n{keys}\n"))].concat()
+    };
+    all_refused_at_mark(&[
+        (light("spectrum = §\"A\""), &["how strong is the light?"]),
+        (
+            light("spectrum = \"A\"\nluminous_flux = 4\nluminous_intensity = 3")
+                .replace("luminous_flux = 4", "luminous_flux = §4"),
+            &["both say"],
+        ),
+        (light("spectrum = \"A\"\nluminous_intensity = §-3"), &["not negative"]),
+        (light("spectrum = \"A\"\nluminous_intensity = 3\ndirection = §[0, 0, 1]"), &["goes with `cone_angle`"]),
+        (light("spectrum = \"A\"\nluminous_intensity = 3\ncone_angle = §30"), &["goes with `direction`"]),
+        (light("spectrum = \"A\"\nluminous_intensity = 3\nfade = §30"), &["goes with `cone_angle`"]),
+        (
+            light("spectrum = \"A\"\nluminous_intensity = 3\ndirection = [0, 0, 0]\ncone_angle = §30"),
+            &["a direction other than zero"],
+        ),
+        (
+            light("spectrum = \"A\"\nluminous_intensity = 3\ndirection = [0, 0, 1]\nfade = 20\ncone_angle = §30"),
+            &["at most half"],
+        ),
+    ]);
+    let unscaled =
+        scene_with(&format!("{SPHERE}[[points]]\nposition = [0, 0, 9]\nspectrum = §\"A\"\nluminous_flux = 4\n"));
+    all_refused_at_mark(&[(unscaled, &["meters_per_unit"])]);
+}

@@ -34,6 +34,10 @@ const EXAMPLES: &[(&str, &str)] = &[
         "[[suns]]\ndirection = [0.3, -0.5, 0.8]\nangle = 0.533\nspectrum = { blackbody = 5778 }\nilluminance = 90000",
     ),
     (
+        "Point light",
+        "[[points]]\nposition = [0, 0, 300]\nspectrum = \"A\"\nluminous_flux = 400\ndirection = [0, 0, -1]\ncone_angle = 40\nfade = 10",
+    ),
+    (
         "Gradient",
         "[environment.gradient]\nzenith = { spectrum = { daylight = 7000 }, luminance = 300 }\nhorizon = { spectrum = \"D65\", luminance = 120 }\nnadir = { spectrum = \"A\", luminance = 10 }",
     ),

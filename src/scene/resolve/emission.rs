@@ -102,7 +102,7 @@ impl Resolver<'_> {
         self.scaled(spectrum, factor, &span)
     }
 
-    fn scaled(&mut self, spectrum: Spectrum, factor: f64, span: &Range<usize>) -> Result<Resolved, SceneError> {
+    pub fn scaled(&mut self, spectrum: Spectrum, factor: f64, span: &Range<usize>) -> Result<Resolved, SceneError> {
         let spectrum = spectrum.scaled(factor);
         let luminance = luminance(&spectrum, &self.observer_1931);
         if !(0.0..=BRIGHTEST).contains(&luminance) {

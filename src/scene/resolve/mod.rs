@@ -6,6 +6,7 @@ mod materials;
 mod meshes;
 mod objects;
 mod picture;
+mod points;
 mod provenance;
 mod settings;
 mod shapes;
@@ -89,6 +90,9 @@ impl Resolver<'_> {
             Some(environment) => self.environment(environment.get_ref(), &world.bounds(), &mut emitters)?,
             None => Environment::Dark,
         };
+        for point in &file.points {
+            emitters.push(self.point(point.get_ref())?);
+        }
         for sun in &file.suns {
             emitters.push(self.sun(sun.get_ref(), half_diagonal(&world.bounds()))?);
         }

@@ -1,0 +1,115 @@
+//! A light without size: it shines from one point, in all directions or within a cone.
+//!
+//! Nothing can meet it by chance: smooth mirrors and glass do not show it, and only surfaces that scatter are lit. What
+//! arrives at distance r is I / r², with the intensity I in W sr⁻¹ nm⁻¹ and r in metres.
+
+use glam::{DVec3, Vec3};
+
+/// Where a point light stands and whereto it shines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    position: Vec3,
+    /// Square metres in a square of scene units.
+    square: f32,
+    cone: Option<Cone>,
+}
+
+/// Full light up to `full`, none beyond `none`, both cosines against the axis; between them it fades as 3t² − 2t³.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cone {
+    axis: Vec3,
+    full: f32,
+    none: f32,
+}
+
+impl Cone {
+    /// Angles in radians from the axis, 0 ≤ `full` ≤ `none` ≤ π; `None` for others and without a direction.
+    pub fn new(axis: DVec3, full: f64, none: f64) -> Option<Self> {
+        let axis = axis.try_normalize()?.as_vec3();
+        let possible = full >= 0.0 && full <= none && none <= std::f64::consts::PI && none > 0.0;
+        possible.then(|| Self { axis, full: libm::cos(full) as f32, none: libm::cos(none) as f32 })
+    }
+
+    /// ∫ of what it lets through over all directions, sr. In the cosine the fade is symmetric, so its mean is a half.
+    pub fn solid_angle(&self) -> f64 {
+        let [full, none] = [self.full, self.none].map(f64::from);
+        std::f64::consts::TAU * ((1.0 - full) + (full - none) / 2.0)
+    }
+
+    /// Share of the intensity in a direction away from the light.
+    #[inline]
+    fn share(&self, direction: Vec3) -> f32 {
+        let cosine = self.axis.dot(direction);
+        if cosine >= self.full {
+            return 1.0;
+        }
+        let t = ((cosine - self.none) / (self.full - self.none)).clamp(0.0, 1.0);
+        t * t * (3.0 - 2.0 * t)
+    }
+}
+
+impl Point {
+    pub fn new(position: Vec3, meters_per_unit: f64, cone: Option<Cone>) -> Self {
+        Self { position, square: (meters_per_unit * meters_per_unit) as f32, cone }
+    }
+
+    /// The solid angle that it lights, sr.
+    pub fn solid_angle(&self) -> f64 {
+        self.cone.map_or(4.0 * std::f64::consts::PI, |cone| cone.solid_angle())
+    }
+
+    /// Direction and distance from a point to the light, and irradiance there per intensity, m⁻²; `None` where it does not
+    /// shine.
+    #[inline]
+    pub fn seen_from(&self, from: Vec3) -> Option<(Vec3, f32, f32)> {
+        let offset = self.position - from;
+        let distance = offset.length();
+        let direction = offset / distance;
+        let share = self.cone.map_or(1.0, |cone| cone.share(-direction));
+        let strength = share / (distance * distance * self.square);
+        (strength > 0.0 && strength.is_finite()).then_some((direction, distance, strength))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cones_solid_angle_is_the_integral_of_its_share() {
+        for (full, none) in [(0.0f64, 0.3), (0.2, 0.2), (0.4, 1.1), (1.0, 3.0), (3.1, std::f64::consts::PI)] {
+            let cone = Cone::new(DVec3::new(0.3, -0.2, -1.0), full, none).unwrap();
+            let across = cone.axis.any_orthonormal_vector();
+            let n = 200_000;
+            let integral: f64 = (0..n)
+                .map(|i| {
+                    let cosine = 2.0 * (f64::from(i) + 0.5) / f64::from(n) - 1.0;
+                    let sine = (1.0 - cosine * cosine).sqrt();
+                    let direction = cone.axis.as_dvec3() * cosine + across.as_dvec3() * sine;
+                    f64::from(cone.share(direction.as_vec3()))
+                })
+                .sum::<f64>()
+                * 2.0
+                / f64::from(n)
+                * std::f64::consts::TAU;
+            assert!((integral / cone.solid_angle() - 1.0).abs() < 2e-3, "{full} {none}: {integral}");
+        }
+    }
+
+    #[test]
+    fn impossible_cones_are_none() {
+        assert!(Cone::new(DVec3::ZERO, 0.1, 0.2).is_none());
+        assert!(Cone::new(DVec3::X, 0.3, 0.2).is_none() && Cone::new(DVec3::X, f64::NAN, 0.2).is_none());
+        assert!(Cone::new(DVec3::X, 0.0, 0.0).is_none() && Cone::new(DVec3::X, 1.0, 4.0).is_none());
+    }
+
+    #[test]
+    fn nothing_arrives_at_the_light_itself_or_outside_of_its_cone() {
+        let cone = Cone::new(DVec3::NEG_Z, 0.1, 0.2);
+        let light = Point::new(Vec3::Z, 0.5, cone);
+        assert_eq!(light.seen_from(Vec3::Z), None);
+        assert_eq!(light.seen_from(Vec3::new(1.0, 0.0, 0.0)), None);
+        let (direction, distance, strength) = light.seen_from(Vec3::new(0.0, 0.0, -1.0)).unwrap();
+        assert_eq!((direction, distance, strength), (Vec3::Z, 2.0, 1.0));
+    }
+}
