@@ -1,11 +1,18 @@
-//! Rays: the way out of a gem, one and eight at once, and the nearest of few and of many shapes.
+//! Rays: the way out of a gem, one and eight at once, the nearest of few and of many shapes, and meshes.
+
+#[path = "../tests/common/meshes.rs"]
+#[allow(dead_code, reason = "a bench uses a part")]
+mod meshes;
 
 use std::hint::black_box;
+use std::sync::Arc;
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use glam::Vec3;
-use spectrel::geometry::{Brilliant, Convex, Disk, Points, Ray, Rectangle, Shape, ShapeId, Sphere, StepCut, World};
+use glam::{Affine3A, Vec3};
+use spectrel::geometry::{
+    Brilliant, Convex, Disk, Mesh, Placed, Points, Ray, Rectangle, Shape, ShapeId, Sphere, StepCut, Triangles, World,
+};
 
 fn main() {
     divan::main();
@@ -181,6 +188,52 @@ fn sample_toward(bencher: Bencher, name: &str) {
         let mut sum = 0.0;
         for &point in black_box(&points) {
             sum += shape.sample_toward(point, [random.unit(), random.unit()]).map_or(0.0, |t| t.pdf);
+        }
+        sum
+    });
+}
+
+/// A bumpy ball of 327,680 triangles.
+fn blob() -> Triangles {
+    meshes::blob(7, 0.05)
+}
+
+#[divan::bench]
+fn mesh_build(bencher: Bencher) {
+    let triangles = blob();
+    let count = triangles.indices.len();
+    bencher
+        .counter(ItemsCount::new(count))
+        .with_inputs(|| triangles.clone())
+        .bench_values(|t| Mesh::new(t).expect("a mesh"));
+}
+
+/// Rays that come from outside, as a camera's do, and rays that set off inwards from where those arrive, as in glass.
+#[divan::bench(args = ["from outside", "within", "copy, from outside", "occluded"])]
+fn mesh_rays(bencher: Bencher, kind: &str) {
+    let mut placed = Placed::new(Arc::new(Mesh::new(blob()).expect("a mesh")));
+    if kind.starts_with("copy") {
+        placed = placed.transformed(&Affine3A::from_rotation_x(0.3)).expect("turned");
+    }
+    let world = World::new(vec![placed.into()]).expect("one shape");
+    let mut rays = outer_rays();
+    if kind == "within" {
+        let mut random = Random(5);
+        let hits = rays.iter().filter_map(|ray| world.closest(ray, f32::INFINITY));
+        rays = hits
+            .map(|hit| {
+                let d = random.vector().normalize_or(Vec3::X);
+                Ray::leaving(&hit, spectrel::geometry::Side::Inside, if d.dot(hit.normal) < 0.0 { d } else { -d })
+            })
+            .collect();
+    }
+    bencher.counter(ItemsCount::new(rays.len())).bench(|| {
+        let mut sum = 0.0;
+        for ray in black_box(&rays) {
+            sum += match kind {
+                "occluded" => f32::from(world.occluded(ray, f32::INFINITY, None)),
+                _ => world.closest(ray, f32::INFINITY).map_or(0.0, |hit| hit.t),
+            };
         }
         sum
     });
