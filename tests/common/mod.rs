@@ -2,7 +2,11 @@
 
 #![allow(dead_code, reason = "each test binary uses a part")]
 
+pub mod facets;
+pub mod files;
 pub mod lanes;
+pub mod paper;
+pub mod pictures;
 
 use spectrel::film::{Film, Window};
 use spectrel::render::{Kernel, render};
