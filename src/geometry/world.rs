@@ -1,6 +1,6 @@
 //! All shapes of a scene, and the two questions that are asked of them.
 
-use glam::{Vec2, Vec3};
+use glam::Vec2;
 
 use super::ray::{Crossing, Departure, Hit, Probe, Ray, ShapeId, Side, Surface, Target, sum_abs};
 use super::shape::Leaving;
@@ -16,6 +16,8 @@ const LIST: usize = 6;
 pub struct World {
     shapes: Vec<Shape>,
     bounds: Bounds,
+    /// Largest extent of a shape.
+    largest: f32,
     tree: Option<Tree>,
 }
 
@@ -35,7 +37,8 @@ impl World {
         let boxes: Vec<Bounds> = shapes.iter().map(Shape::bounds).collect();
         let bounds = boxes.iter().fold(Bounds::EMPTY, |all, b| all.union(b));
         let tree = (shapes.len() > LIST).then(|| Tree::new(&boxes));
-        Ok(Self { shapes, bounds, tree })
+        let largest = shapes.iter().map(Shape::extent).fold(0.0, f32::max);
+        Ok(Self { shapes, bounds, largest, tree })
     }
 
     pub fn shapes(&self) -> &[Shape] {
@@ -121,12 +124,50 @@ impl World {
         self.shape(hit.shape)?.uv(hit.point, hit.facet)
     }
 
-    /// Another surface that coincides, up to rounding, with the one that was hit, for a ray that goes on through it.
-    pub fn beside(&self, hit: &Hit, direction: Vec3) -> Option<Hit> {
-        let through = Ray::leaving(hit, hit.side.opposite(), direction);
-        let rounding = self.probe(&through).origin_error;
-        let cosine = hit.normal.dot(direction).abs();
-        self.closest(&through, 4.0 * rounding / cosine.max(0.01))
+    /// The next surface along a ray that coincides, up to rounding, with the last of those `met` at one place.
+    ///
+    /// It is looked for along the ray that has found the first one. A ray from there would have to judge anew which surface is
+    /// still to come: one that this ray meets later by a hair, that one could take for passed, and then nobody crosses it.
+    pub fn beside(&self, ray: &Ray, met: &[Hit]) -> Option<Hit> {
+        let far = met.last()?;
+        let coordinates = 2.0 * sum_abs(far.point) + self.extent(far.shape);
+        let cosine = far.normal.dot(ray.direction).abs().max(0.01);
+        let within = |extent: f32| far.t + 16.0 * f32::EPSILON * (coordinates + extent) / cosine;
+        let probe = self.probe(ray);
+        let departed = departed(ray);
+        let mut best: Option<Nearest> = None;
+        let mut candidate = |shape: u32, crossing: Option<Crossing>| {
+            let Some(crossing) = crossing.filter(|crossing| crossing.t <= within(self.extent(ShapeId(shape)))) else {
+                return;
+            };
+            let before = |b: &Nearest| (b.crossing.t, b.shape) <= (crossing.t, shape);
+            if !best.as_ref().is_some_and(before) {
+                best = Some(Nearest { crossing, shape });
+            }
+        };
+        self.visit(ray, &probe, within(self.largest), |shape, limit| {
+            if shape != departed && met.iter().all(|hit| hit.shape.0 != shape) {
+                candidate(shape, self.shapes[shape as usize].meet(&probe, limit));
+            }
+            limit
+        });
+        if let Some((shape, leaving)) = leaving(ray)
+            && met.iter().all(|hit| hit.shape != shape)
+        {
+            candidate(shape.0, self.shape(shape).and_then(|own| own.again(&leaving, within(own.extent()))));
+        }
+        // Two solids of one mesh may touch each other.
+        if let Some(Shape::Mesh(mesh)) = self.shape(far.shape) {
+            let side = far.side.opposite();
+            let leaving = Leaving { origin: far.point, direction: ray.direction, facet: far.facet, side };
+            let again = mesh.again(&leaving, within(mesh.extent()) - far.t);
+            candidate(far.shape.0, again.map(|crossing| Crossing { t: far.t + crossing.t, ..crossing }));
+        }
+        best.map(|nearest| self.hit(ray, nearest))
+    }
+
+    fn extent(&self, shape: ShapeId) -> f32 {
+        self.shape(shape).map_or(0.0, Shape::extent)
     }
 
     /// The shapes whose boxes meet a box, in their order.

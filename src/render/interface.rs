@@ -11,7 +11,6 @@ use crate::geometry::{Departure, Hit, Ray, Side};
 use crate::sampler::Sampler;
 use crate::scene::{Filling, Inside, Interface, Surface};
 use crate::spectrum::Lanes;
-use glam::Vec3;
 
 /// Boundaries that coincide at one place, at most.
 const MOST: usize = 8;
@@ -30,19 +29,20 @@ struct Boundary {
 impl Kernel<'_> {
     /// Boundaries that coincide are one: there is no air between glasses that touch. Goes on through all that are met at once.
     #[inline(never)]
-    fn contact(&self, mut boundary: Boundary, direction: Vec3) -> Boundary {
-        for _ in 0..MOST {
-            let Some(next) = self.scene.world.beside(&boundary.far, direction) else { break };
+    fn contact(&self, mut boundary: Boundary, ray: &Ray) -> Boundary {
+        let mut met = [boundary.far; MOST];
+        for count in 1..MOST {
+            let Some(next) = self.scene.world.beside(ray, &met[..count]) else { break };
             let Surface::Dielectric(interface) = self.surface(&next) else { break };
             let rank = self.scene.object(next.shape).rank;
             let entering = next.side == Side::Outside;
-            let media = boundary.media.across(Filling { rank, medium: interface.medium }, entering);
+            boundary.media = boundary.media.across(Filling { rank, medium: interface.medium }, entering);
             if rank > boundary.rank {
                 boundary.interface = interface;
                 boundary.rank = rank;
             }
-            boundary.media = media;
             boundary.far = next;
+            met[count] = next;
         }
         boundary
     }
@@ -62,7 +62,7 @@ impl Kernel<'_> {
         let media = path.media.across(Filling { rank: object.rank, medium: interface.medium }, entering);
         let boundary = Boundary { interface: *interface, rank: object.rank, media, far: *hit };
         let Boundary { interface, media, far, .. } = match object.touches {
-            true => self.contact(boundary, path.ray.direction),
+            true => self.contact(boundary, &path.ray),
             false => boundary,
         };
         let (from, to) = (path.media.current(), media.current());
@@ -70,7 +70,10 @@ impl Kernel<'_> {
             path.media = media;
             // No shadow ray comes through here: a light that this ray meets counts in full.
             path.pdf = f32::INFINITY;
-            path.ray = Ray::leaving(&far, far.side.opposite(), path.ray.direction);
+            let from_here = Ray::leaving(&far, far.side.opposite(), path.ray.direction);
+            // Never back: two solids that share a hair of room would each find the ray before the other's surface, for ever.
+            let origin = if far.t > 0.0 { far.point } else { path.ray.origin };
+            path.ray = Ray { origin, ..from_here };
             return Outcome::GoesOn;
         }
         let Interface { model, .. } = interface;

@@ -3,9 +3,13 @@
 #![allow(dead_code, reason = "each test binary uses a part")]
 
 pub mod command;
+pub mod compare;
+pub mod facets;
+pub mod files;
 pub mod lanes;
 pub mod paper;
 pub mod pictures;
+pub mod plates;
 pub mod prism;
 
 use spectrel::film::{Film, Window};
