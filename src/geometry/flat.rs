@@ -1,6 +1,6 @@
 //! What rectangles and disks share: a centre and two vectors that span a plane.
 
-use glam::{Affine3A, DVec3, Vec3};
+use glam::{Affine3A, DVec3, Vec2, Vec3};
 
 use super::ray::{Crossing, Probe, Side, sum_abs};
 use super::{GeometryError, check};
@@ -102,6 +102,12 @@ impl Flat {
             margin_a: margin * sum_abs(self.dual_u),
             margin_b: margin * sum_abs(self.dual_v),
         })
+    }
+
+    /// −1…1 along both vectors as 0…1.
+    pub fn uv(&self, point: Vec3) -> Vec2 {
+        let (_, a, b) = self.project(point);
+        Vec2::new(a, b) * 0.5 + 0.5
     }
 
     /// A point near the plane put onto it, and its two coordinates.

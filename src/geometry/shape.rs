@@ -1,6 +1,6 @@
 //! The shapes there are, and what all of them answer.
 
-use glam::{Affine3A, Vec3};
+use glam::{Affine3A, Vec2, Vec3};
 
 use super::ray::{Crossing, Probe};
 use super::{Bounds, Convex, Disk, GeometryError, Rectangle, Sphere};
@@ -82,6 +82,25 @@ impl Shape {
             Shape::Rectangle(s) => s.surface(near),
             Shape::Disk(s) => s.surface(near),
             Shape::Convex(s) => s.surface(near, facet),
+        }
+    }
+
+    /// Whether its points have texture coordinates.
+    pub fn has_uv(&self) -> bool {
+        match self {
+            Shape::Sphere(_) | Shape::Rectangle(_) | Shape::Disk(_) => true,
+            Shape::Convex(_) => false,
+        }
+    }
+
+    /// Texture coordinates, v upwards: of a sphere azimuth and height by angle, each over its range; of flat shapes the square
+    /// around them.
+    pub(super) fn uv(&self, point: Vec3, _facet: u32) -> Option<Vec2> {
+        match self {
+            Shape::Sphere(s) => Some(s.uv(point)),
+            Shape::Rectangle(s) => Some(s.flat.uv(point)),
+            Shape::Disk(s) => Some(s.flat.uv(point)),
+            Shape::Convex(_) => None,
         }
     }
 

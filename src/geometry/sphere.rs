@@ -4,7 +4,7 @@
 //! (2019), ch. 7, after Hearn and Baker: the discriminant comes from the part of the origin perpendicular to the ray, which
 //! keeps its digits when the sphere is far or large, and the nearer root from c / q.
 
-use glam::{Affine3A, Vec3};
+use glam::{Affine3A, Vec2, Vec3};
 
 use super::ray::{Crossing, Probe, Side};
 use super::{Bounds, GeometryError, check};
@@ -100,7 +100,15 @@ impl Sphere {
         Crossing { t, slack: slack(error, along, t), side: Side::Inside, facet: 0 }
     }
 
-    /// Point, normal and coordinates (longitude and colatitude over their ranges, poles on z) of a crossing.
+    /// Azimuth from +x towards +y over a whole turn, and angle from −z over half of one, each 0…1.
+    pub(super) fn uv(&self, point: Vec3) -> Vec2 {
+        let d = point - self.center;
+        let turn = libm::atan2f(d.y, d.x) / std::f32::consts::TAU;
+        let height = libm::atan2f(libm::hypotf(d.x, d.y), -d.z) / std::f32::consts::PI;
+        Vec2::new(if turn < 0.0 { turn + 1.0 } else { turn }, height)
+    }
+
+    /// Point and normal of a crossing.
     pub(super) fn surface(&self, near: Vec3) -> (Vec3, Vec3) {
         let normal = (near - self.center).try_normalize().unwrap_or(Vec3::Z);
         (self.center + normal * self.radius, normal)

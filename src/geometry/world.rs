@@ -1,5 +1,7 @@
 //! All shapes of a scene, and the two questions that are asked of them.
 
+use glam::Vec2;
+
 use super::ray::{Crossing, Departure, Hit, Probe, Ray, ShapeId, Side, sum_abs};
 use super::tree::{BoxRay, Tree};
 use super::{Bounds, GeometryError, Shape};
@@ -118,6 +120,11 @@ impl World {
             }
         });
         hidden
+    }
+
+    /// Texture coordinates of a hit, v upwards; none where the shape has none.
+    pub fn uv(&self, hit: &Hit) -> Option<Vec2> {
+        self.shape(hit.shape)?.uv(hit.point, hit.facet)
     }
 
     /// Shows candidates to `each`, which takes and returns the farthest distance of interest.
