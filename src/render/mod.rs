@@ -6,6 +6,7 @@
 mod interface;
 mod media;
 mod path;
+mod pattern;
 mod rough;
 mod scatter;
 mod stone;

@@ -4,6 +4,7 @@ mod camera;
 mod emission;
 mod materials;
 mod objects;
+mod patterns;
 mod picture;
 mod provenance;
 mod settings;
@@ -13,7 +14,7 @@ mod surroundings;
 pub use settings::Overrides;
 
 use super::describe::{self, SceneFile};
-use super::{DataSet, Medium, Scene, SceneError, Surface, Text};
+use super::{DataSet, Medium, Pattern, Scene, SceneError, Surface, Text};
 use crate::fresnel::FresnelModel;
 use crate::geometry::{Bounds, World};
 use crate::light::{Environment, Lights};
@@ -39,6 +40,7 @@ pub fn resolve(text: Text, library: &Library, overrides: &Overrides) -> Result<S
         observer_1931,
         spectra: Arena::default(),
         surfaces: Vec::new(),
+        patterns: BTreeMap::new(),
         media: Vec::new(),
         by_name: BTreeMap::new(),
         white_candidates: Vec::new(),
@@ -60,6 +62,7 @@ struct Resolver<'a> {
     observer_1931: Arc<ColorMatching>,
     spectra: Arena,
     surfaces: Vec<Surface>,
+    patterns: BTreeMap<u32, Pattern>,
     media: Vec<Medium>,
     by_name: BTreeMap<String, u32>,
     /// Lights by how much they matter for what is white.
@@ -98,6 +101,7 @@ impl Resolver<'_> {
             world,
             objects,
             surfaces: self.surfaces,
+            patterns: self.patterns,
             media: self.media,
             lights,
             camera,

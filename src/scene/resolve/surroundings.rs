@@ -105,7 +105,7 @@ impl Resolver<'_> {
             Some((Some(space), _)) => (space, None),
             Some((None, Some(matrix))) => (WIDE, Some(matrix)),
             Some((None, None)) => {
-                self.warnings.push(format!("`{name}` states chromaticities that make no colours: taken for sRGB"));
+                self.warn_of_chromaticities(name);
                 (RgbSpace::Srgb, None)
             }
         };
