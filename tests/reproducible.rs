@@ -10,15 +10,17 @@ use spectrel::scene::{Needs, Overrides};
 use std::sync::atomic::AtomicBool;
 
 const SCENE: &str = include_str!("data/reproducible.toml");
+const PICTURES: &str = include_str!("data/pictures.toml");
 
-fn in_threads(threads: usize) -> Film {
+fn in_threads(text: &str, threads: usize) -> Film {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-    pool.install(|| film(&scene(SCENE, &Overrides::default())))
+    pool.install(|| film(&scene(text, &Overrides::default())))
 }
 
 #[test]
 fn one_thread_and_two_give_the_same_film() {
-    assert!(in_threads(1) == in_threads(2));
+    assert!(in_threads(SCENE, 1) == in_threads(SCENE, 2));
+    assert!(in_threads(PICTURES, 1) == in_threads(PICTURES, 2));
 }
 
 #[test]
@@ -44,9 +46,11 @@ fn parts_of_a_job_merge_into_the_same_film() {
 /// Run in debug and in release: both must find the value that stands here.
 #[test]
 fn every_build_gives_these_bits() {
-    let film = in_threads(2);
-    let sums: Vec<u8> = film.pixels().iter().flat_map(|pixel| pixel.mean()).flat_map(f64::to_le_bytes).collect();
-    assert_eq!(format!("{:016x}", fnv1a_64(&sums)), "448824151e37d1f3");
+    for (text, bits) in [(SCENE, "448824151e37d1f3"), (PICTURES, "7bc95916f8ddb8bf")] {
+        let film = in_threads(text, 2);
+        let sums: Vec<u8> = film.pixels().iter().flat_map(|pixel| pixel.mean()).flat_map(f64::to_le_bytes).collect();
+        assert_eq!(format!("{:016x}", fnv1a_64(&sums)), bits);
+    }
 }
 
 #[test]

@@ -17,7 +17,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("camera", &["spectrum", "geometry"]),
     ("scene", &["spectrum", "fresnel", "bsdf", "geometry", "texture", "light", "camera"]),
     ("film", &["spectrum"]),
-    ("render", &["spectrum", "fresnel", "bsdf", "geometry", "sampler", "light", "camera", "scene", "film"]),
+    ("render", &["spectrum", "fresnel", "bsdf", "geometry", "sampler", "texture", "light", "camera", "scene", "film"]),
     ("image", &["film", "spectrum"]),
     ("report", &["image", "film", "spectrum", "fresnel"]),
     ("cli", &["*"]),

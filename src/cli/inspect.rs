@@ -4,7 +4,9 @@ use super::{SceneArgs, show};
 use crate::geometry::{Mesh, Shape};
 use crate::light::Source;
 use crate::scene::describe::ExposureValue;
-use crate::scene::{Decision, Interface, MediumId, Needs, Overrides, Scene, SceneError, Surface, listed, resolve};
+use crate::scene::{
+    Decision, Interface, MediumId, Needs, Object, Overrides, Scene, SceneError, Surface, listed, resolve,
+};
 use clap::Args;
 use serde::Serialize;
 
@@ -74,11 +76,15 @@ pub fn run(args: &InspectArgs) -> Result<(), SceneError> {
 }
 
 fn report(scene: &Scene) -> Report {
+    let surface = |object: &Object| scene.surfaces[object.surface as usize];
     let objects = scene.objects.iter().zip(scene.world.shapes()).map(|(object, shape)| ObjectReport {
         name: object.name.clone(),
         shape: shape_kind(shape),
         material: object.material.clone(),
-        kind: surface_kind(&scene.surfaces[object.surface as usize]),
+        kind: match scene.patterns.get(&object.surface) {
+            Some(pattern) => format!("{}, by {}", surface_kind(&surface(object)), pattern.files.join(" and ")),
+            None => surface_kind(&surface(object)),
+        },
     });
     Report {
         width: scene.settings.width,

@@ -100,7 +100,6 @@ impl Sphere {
         Crossing { t, slack: slack(error, along, t), side: Side::Inside, facet: 0 }
     }
 
-    /// Point, normal and coordinates (longitude and colatitude over their ranges, poles on z) of a crossing.
     /// Azimuth from +x towards +y over a whole turn, and angle from −z over half of one, each 0…1.
     pub(super) fn uv(&self, point: Vec3) -> Vec2 {
         let d = point - self.center;
@@ -109,6 +108,7 @@ impl Sphere {
         Vec2::new(if turn < 0.0 { turn + 1.0 } else { turn }, height)
     }
 
+    /// Point and normal of a crossing.
     pub(super) fn surface(&self, near: Vec3) -> Surface {
         let normal = (near - self.center).try_normalize().unwrap_or(Vec3::Z);
         Surface::plain(self.center + normal * self.radius, normal)

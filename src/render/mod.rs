@@ -8,6 +8,7 @@ mod interface;
 mod layers;
 mod media;
 mod path;
+mod pattern;
 mod rough;
 mod scatter;
 mod stone;

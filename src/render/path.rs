@@ -96,7 +96,7 @@ impl Kernel<'_> {
             let outcome = match self.surface(&hit) {
                 Surface::Black => Outcome::Ended,
                 Surface::Diffuse { reflectance } => {
-                    let bsdf = Bsdf::Diffuse { reflectance: self.tables.get(reflectance, path.offset) };
+                    let bsdf = Bsdf::Diffuse { reflectance: self.reflectance(reflectance, &hit, path.offset) };
                     self.scatter(&bsdf, &mut path, &hit, sampler, &mut radiance)
                 }
                 Surface::Conductor { n, k, alpha, model } => {
@@ -112,11 +112,6 @@ impl Kernel<'_> {
             }
         }
         radiance
-    }
-
-    #[inline]
-    pub fn surface(&self, hit: &Hit) -> Surface {
-        self.scene.surfaces[self.scene.object(hit.shape).surface as usize]
     }
 
     /// What has escaped is outside of all solids, whatever was entered where surfaces coincide.

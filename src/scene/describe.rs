@@ -4,7 +4,7 @@
 //! and flattened structures lose it.
 
 use super::numbers::{Finite, Length, Lengths, Numbers};
-pub use super::pictures::{ColorSpaceName, EnvironmentImage};
+pub use super::pictures::{ColorSpaceName, EnvironmentImage, ImageTexture, TextureSpaceName};
 use crate::fresnel::FresnelModel;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -289,9 +289,9 @@ pub struct Material {
 pub struct Conductor {
     pub ior: Spanned<IndexSource>,
     /// GGX α, 0…1.
-    pub roughness: Option<Number>,
+    pub roughness: Option<Spanned<RoughnessSource>>,
     /// r with α = r².
-    pub perceptual_roughness: Option<Number>,
+    pub perceptual_roughness: Option<Spanned<RoughnessSource>>,
     /// `exact` unless given.
     pub fresnel: Option<FresnelModel>,
 }
@@ -304,9 +304,9 @@ pub struct Dielectric {
     /// From the k of `ior` unless given.
     pub absorption: Option<Spanned<AbsorptionSource>>,
     /// GGX α, 0…1.
-    pub roughness: Option<Number>,
+    pub roughness: Option<Spanned<RoughnessSource>>,
     /// r with α = r².
-    pub perceptual_roughness: Option<Number>,
+    pub perceptual_roughness: Option<Spanned<RoughnessSource>>,
     /// `exact` unless given.
     pub fresnel: Option<FresnelModel>,
 }
@@ -333,12 +333,20 @@ pub enum AbsorptionSource {
     PerMetre(f64),
 }
 
-/// A data set's name or file, one value for all wavelengths, or a linear sRGB colour to be upsampled.
+/// A data set's name or file, one value for all wavelengths, a linear sRGB colour to be upsampled, or a picture of colours.
 #[derive(Debug)]
 pub enum ReflectanceSource {
     Name(String),
     Constant(f64),
     Rgb([f64; 3]),
+    Image(ImageTexture),
+}
+
+/// One value for the whole surface, or a picture of values.
+#[derive(Debug)]
+pub enum RoughnessSource {
+    Constant(f64),
+    Image(ImageTexture),
 }
 
 /// A shape at a place, of a material, with or without light of its own.

@@ -3,13 +3,16 @@
 //! Untagged serde enums would do it too, but they lose the place of what is wrong inside a table; one visitor keeps it.
 
 use super::describe::{
-    AbsorptionSource, Environment, ExposureValue, IndexSource, LightSpectrum, OwnLight, ReflectanceSource, Scale, Shape,
+    AbsorptionSource, Environment, ExposureValue, ImageTexture, IndexSource, LightSpectrum, OwnLight,
+    ReflectanceSource, RoughnessSource, Scale, Shape, TextureSpaceName,
 };
 use super::numbers::{Finite, Numbers};
+use super::pictures::WrapName;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use std::fmt;
 use std::marker::PhantomData;
+use toml::Spanned;
 
 /// The forms a value takes; those that are not overridden are type errors that say what was expected.
 trait Forms<'de>: Sized {
@@ -95,6 +98,7 @@ deserialize_by_form!(
     IndexSource,
     LightSpectrum,
     ReflectanceSource,
+    RoughnessSource,
     Scale,
     Shape
 );
@@ -177,7 +181,8 @@ impl<'de> Forms<'de> for AbsorptionSource {
 }
 
 impl<'de> Forms<'de> for ReflectanceSource {
-    const EXPECTED: &'static str = "a reflectance data set's name or file, a number 0…1, or { rgb = [r, g, b] }";
+    const EXPECTED: &'static str =
+        "a reflectance data set's name or file, a number 0…1, { rgb = [r, g, b] }, or { image = \"…\" }";
 
     fn name<E: Error>(name: &str) -> Result<Self, E> {
         Ok(Self::Name(name.to_owned()))
@@ -188,12 +193,38 @@ impl<'de> Forms<'de> for ReflectanceSource {
     }
 
     fn table<A: MapAccess<'de>>(table: A) -> Result<Self, A::Error> {
+        /// The keys of both kinds, so that unknown ones are told with all that could be meant.
         #[derive(serde::Deserialize)]
         #[serde(deny_unknown_fields)]
-        struct Rgb {
-            rgb: Numbers<3>,
+        struct Either {
+            rgb: Option<Numbers<3>>,
+            image: Option<Spanned<String>>,
+            color_space: Option<Spanned<TextureSpaceName>>,
+            scale: Option<Numbers<2>>,
+            wrap: Option<WrapName>,
         }
-        Rgb::deserialize(MapAccessDeserializer::new(table)).map(|Rgb { rgb }| Self::Rgb(rgb.values()))
+        let Either { rgb, image, color_space, scale, wrap } = Either::deserialize(MapAccessDeserializer::new(table))?;
+        let plain = color_space.is_none() && scale.is_none() && wrap.is_none();
+        match (rgb, image) {
+            (Some(rgb), None) if plain => Ok(Self::Rgb(rgb.values())),
+            (None, Some(image)) => {
+                Ok(Self::Image(ImageTexture { image, color_space, scale, wrap: wrap.unwrap_or_default() }))
+            }
+            (Some(_), _) => Err(unexpected::<Self, A::Error>("keys of both")),
+            (None, None) => Err(unexpected::<Self, A::Error>("a table with neither")),
+        }
+    }
+}
+
+impl<'de> Forms<'de> for RoughnessSource {
+    const EXPECTED: &'static str = "a number 0…1, or { image = \"…\" }";
+
+    fn number<E: Error>(value: f64) -> Result<Self, E> {
+        Ok(Self::Constant(value))
+    }
+
+    fn table<A: MapAccess<'de>>(table: A) -> Result<Self, A::Error> {
+        ImageTexture::deserialize(MapAccessDeserializer::new(table)).map(Self::Image)
     }
 }
 

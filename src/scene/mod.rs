@@ -18,7 +18,9 @@ use crate::camera::{Camera, Filter};
 use crate::fresnel::FresnelModel;
 use crate::geometry::{ShapeId, World};
 use crate::light::Lights;
-use crate::spectrum::{About, Arena, ColorMatching, SpectrumId};
+use crate::spectrum::{About, Arena, ColorMatching, SpectrumId, Tint};
+use crate::texture::Texels;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -30,6 +32,8 @@ pub struct Scene {
     /// By [`ShapeId`].
     pub objects: Vec<Object>,
     pub surfaces: Vec<Surface>,
+    /// What changes from place to place on a surface, by the surface's index.
+    pub patterns: BTreeMap<u32, Pattern>,
     /// The first one is the medium around everything.
     pub media: Vec<Medium>,
     pub lights: Lights,
@@ -86,6 +90,17 @@ pub enum Surface {
         model: FresnelModel,
     },
     Dielectric(Interface),
+}
+
+/// Pictures on a surface, in place of what [`Surface`] says of it as a whole.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Pattern {
+    /// 0…1.
+    pub reflectance: Option<Texels<Tint>>,
+    /// GGX α; the surface's own is the largest.
+    pub alpha: Option<Texels<f32>>,
+    /// As the scene calls them.
+    pub files: Vec<String>,
 }
 
 /// The boundary of a closed solid.

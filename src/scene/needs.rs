@@ -1,6 +1,7 @@
 //! Which physics a scene uses, and why: what it does not need is neither loaded nor run.
 
-use super::{Inside, Interface, MediumId, Object, Scene, Surface};
+use super::{Inside, Interface, MediumId, Object, Pattern, Scene, Surface};
+use crate::bsdf::conductor::MIRROR_ALPHA;
 use crate::light::Environment;
 use crate::spectrum::Density;
 use serde::Serialize;
@@ -14,6 +15,8 @@ pub struct Needs {
     pub light_sampling: bool,
     /// Whether anything takes its colour from a picture.
     pub pictures: bool,
+    /// Whether surfaces change from place to place.
+    pub textures: bool,
     pub decisions: Vec<Decision>,
 }
 
@@ -35,6 +38,7 @@ impl Needs {
             absorption(scene),
             immersion(scene),
             microfacets(scene),
+            textures(scene),
             light_sampling(scene),
             environment(scene),
         ];
@@ -42,6 +46,7 @@ impl Needs {
             wavelength_density: Density::with_lines(lines.iter().copied()),
             light_sampling: light_sampling(scene).used,
             pictures: pictures(scene),
+            textures: !scene.patterns.is_empty(),
             decisions,
         }
     }
@@ -92,13 +97,17 @@ fn wavelengths(lines: &[f64]) -> Decision {
 }
 
 fn dispersion(scene: &Scene) -> Decision {
-    let disperses = |surface: &Surface| match surface {
-        Surface::Dielectric(interface @ Interface { medium, .. }) if !interface.is_rough() => {
-            scene.medium(*medium).dispersive || scene.medium(MediumId::OUTSIDE).dispersive
+    let smooth_somewhere = |object: &Object, interface: &Interface| match scene.patterns.get(&object.surface) {
+        Some(Pattern { alpha: Some(alphas), .. }) => alphas.all().iter().any(|alpha| *alpha < MIRROR_ALPHA),
+        _ => !interface.is_rough(),
+    };
+    let disperses = |object: &&Object| match &scene.surfaces[object.surface as usize] {
+        Surface::Dielectric(interface) if smooth_somewhere(object, interface) => {
+            scene.medium(interface.medium).dispersive || scene.medium(MediumId::OUTSIDE).dispersive
         }
         _ => false,
     };
-    match objects_with(scene, disperses) {
+    match scene.objects.iter().filter(disperses).map(|object| object.name.as_str()).collect::<Vec<_>>() {
         names if names.is_empty() => {
             decision("dispersion", false, "no smooth dielectric's index changes with wavelength")
         }
@@ -175,7 +184,19 @@ fn light_sampling(scene: &Scene) -> Decision {
 }
 
 fn pictures(scene: &Scene) -> bool {
-    matches!(scene.lights.environment, Environment::Map(_))
+    let printed = scene.patterns.values().any(|pattern| pattern.reflectance.is_some());
+    printed || matches!(scene.lights.environment, Environment::Map(_))
+}
+
+fn textures(scene: &Scene) -> Decision {
+    let mut files: Vec<&str> = scene.patterns.values().flat_map(|pattern| &pattern.files).map(String::as_str).collect();
+    files.sort_unstable();
+    files.dedup();
+    let on = scene.objects.iter().filter(|object| scene.patterns.contains_key(&object.surface));
+    match on.map(|object| object.name.as_str()).collect::<Vec<_>>() {
+        names if names.is_empty() => decision("textures", false, "no picture lies on a surface"),
+        names => decision("textures", true, format!("{} on {}, bilinear", listed(&files), listed(&names))),
+    }
 }
 
 fn environment(scene: &Scene) -> Decision {

@@ -1,6 +1,8 @@
 //! What a scene file says of the pictures it takes light and colours from; a part of `describe`.
 
 use super::describe::{LightSpectrum, Number};
+use super::numbers::Numbers;
+use crate::texture::Wrap;
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -38,4 +40,50 @@ pub enum ColorSpaceName {
     /// AP1, with the white of ACES.
     #[serde(rename = "acescg")]
     AcesCg,
+}
+
+/// A picture on a surface (PNG, EXR or Radiance HDR), u to its right and v upwards. Spheres have u around z and v from bottom to top by
+/// angle, rectangles and disks the square around them. Between texels it is bilinear; smaller than pixels it is averaged by
+/// the samples of a pixel.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ImageTexture {
+    /// A file beside the scene file, or beside the material's own.
+    pub image: Spanned<String>,
+    /// How numbers become colours: `srgb` for a PNG and `linear` for the others unless given. Roughness is data and has none.
+    pub color_space: Option<Spanned<TextureSpaceName>>,
+    /// How often the picture stands beside and above itself over u and v from 0 to 1; [1, 1] unless given.
+    pub scale: Option<Numbers<2>>,
+    #[serde(default)]
+    pub wrap: WrapName,
+}
+
+/// How the numbers of a picture become colours.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+pub enum TextureSpaceName {
+    /// Codes by the sRGB curve.
+    Srgb,
+    /// In proportion to light; of sRGB primaries unless the file says others.
+    Linear,
+}
+
+/// What is beyond the edges of a picture.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+pub enum WrapName {
+    /// The picture again; unless given.
+    #[default]
+    Repeat,
+    /// The colours of its edges.
+    Clamp,
+}
+
+impl From<WrapName> for Wrap {
+    fn from(name: WrapName) -> Self {
+        match name {
+            WrapName::Repeat => Self::Repeat,
+            WrapName::Clamp => Self::Clamp,
+        }
+    }
 }

@@ -1,4 +1,5 @@
-//! Pictures that come in: EXR, Radiance HDR and PNG as arrays of numbers, with what the file says of their meaning.
+//! Pictures that come in: EXR, Radiance HDR and PNG as arrays of numbers, with what the file says of their meaning; and what
+//! such a picture shows where it lies on a surface (`texels`).
 //!
 //! A reader tells the size from the header before it takes memory, names the file in every error, and changes no value:
 //! what a negative or an infinite one means is for the scene to say. It looks at the file's extension, not at its first
@@ -9,9 +10,11 @@ mod exr;
 mod hdr;
 mod png;
 mod raster;
+mod texels;
 
 pub use error::TextureError;
 pub use raster::{Encoding, Raster, Samples};
+pub use texels::{Texels, Wrap};
 
 use std::fs::File;
 use std::path::Path;

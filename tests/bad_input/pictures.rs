@@ -6,7 +6,10 @@ fn surroundings(keys: &str) -> String {
     [SMALL, CAMERA, SPHERE, "[environment.image]\n", keys, "\n"].concat()
 }
 
-const HDR: &str = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\nxxx@yyyA";
+const HDR: &str = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\nxyz@zyxA";
+
+/// The same without colour.
+const GREY: &str = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\nxxx@yyyA";
 
 #[test]
 fn a_good_picture_is_good() {
@@ -71,4 +74,56 @@ fn keys_of_surroundings_must_make_sense() {
     let outcome = spectrel(folder.path(), &["render", "scene.toml", "-q"]);
     assert_eq!(outcome.code, Some(2));
     assert!(outcome.stderr.contains("give an .exr or .hdr file"), "{}", outcome.stderr);
+}
+
+fn textured(keys: &str, shape: &str) -> String {
+    scene_with(&format!("[[objects]]\nmaterial = \"m\"\n{shape}\n[materials.m.{keys}\n"))
+}
+
+const RECTANGLE: &str = "shape.rectangle = { size = [1, 1] }";
+
+#[test]
+fn pictures_of_the_wrong_kind_are_refused_where_they_are_named() {
+    let colored = &[("a.hdr", HDR)];
+    let rough = textured("conductor]\nior = 1\nroughness = { image = §\"a.hdr\" }", RECTANGLE);
+    refused_at_mark(&rough, colored, &["`a.hdr` has three channels, which differ in 2 of 2 texels", "a grey picture"]);
+    let spaced = textured("conductor]\nior = 1\nroughness = { image = \"a.hdr\", color_space = §\"srgb\" }", RECTANGLE);
+    refused_at_mark(&spaced, colored, &["roughness is data"]);
+    let huge = &[("a.hdr", "#?RADIANCE\n\n-Y 1000000 +X 2000000\n")];
+    refused_at_mark(&textured("diffuse]\nreflectance = { image = §\"a.hdr\" }", RECTANGLE), huge, &["bytes)"]);
+    refused_at_mark(&textured("diffuse]\nreflectance = { image = §\"a.gif\" }", RECTANGLE), &[], &["a.gif", ".png"]);
+    refused_at_mark(
+        &textured("diffuse]\nreflectance = { image = §\"a.png\" }", RECTANGLE),
+        &[],
+        &["cannot read `a.png`"],
+    );
+    for (keys, says) in [
+        ("diffuse]\nreflectance = { image = \"a.hdr\", §scal = [1, 1] }", "did you mean `scale`?"),
+        ("diffuse]\nreflectance = { image = \"a.hdr\", wrap = §\"mirror\" }", "known here: `repeat`, `clamp`"),
+        ("diffuse]\nreflectance = { image = \"a.hdr\", scale = §[1, 1, 1] }", "expected 2 numbers"),
+        ("diffuse]\nreflectance = { image = \"a.hdr\", scale = [1, §nan] }", "finite"),
+        ("diffuse]\nreflectance = { image = \"a.hdr\", color_space = §\"rgb\" }", "did you mean `srgb`?"),
+        ("diffuse]\nreflectance = §{ image = \"a.hdr\", rgb = [0, 0, 0] }", "keys of both"),
+        ("diffuse]\nreflectance = §{ rgb = [0, 0, 0], wrap = \"clamp\" }", "keys of both"),
+        ("conductor]\nior = 1\nroughness = §\"a.hdr\"", "expected a number 0…1, or { image"),
+        ("conductor]\nior = 1\nroughness = { §file = \"a.hdr\" }", "unknown key `file`"),
+    ] {
+        refused_at_mark(&textured(keys, RECTANGLE), colored, &[says]);
+    }
+}
+
+#[test]
+fn a_shape_without_texture_coordinates_takes_no_picture() {
+    for shape in ["§shape.box = { size = [1, 1, 1] }", "§shape.brilliant = { diameter = 1 }"] {
+        for keys in
+            ["diffuse]\nreflectance = { image = \"a.hdr\" }", "conductor]\nior = 1\nroughness = { image = \"a.hdr\" }"]
+        {
+            let scene = textured(keys, shape);
+            refused_at_mark(
+                &scene,
+                &[("a.hdr", GREY)],
+                &["object 1 has no texture coordinates", "`a.hdr`", "spheres, rectangles"],
+            );
+        }
+    }
 }

@@ -144,12 +144,14 @@ emission = { spectrum = { lines = [[435.8, 1], [546.1, 2]] }, luminance = 50 }
 shape.rectangle = { center = [0, 0, 50], size = [3, 4], normal = [0, 0, -1] }
 "#;
 
-/// [`EVERYTHING`] under a picture.
+/// [`EVERYTHING`] under a picture, beside a ball that wears one.
 fn under_a_picture() -> String {
     let (before, after) = EVERYTHING.split_once("[environment]").expect("an environment");
     let (_, after) = after.split_once("[materials.glass").expect("a material");
     let image = "[environment.image]\nfile = \"data/sky.hdr\"\nilluminant = \"D50\"\nluminance = 200\nrotate = 30\ncolor_space = \"rec2020\"\n";
-    format!("{before}{image}[materials.glass{after}")
+    let print = "[materials.print.diffuse]\nreflectance = { image = \"data/sky.hdr\", color_space = \"linear\", scale = [2, -3], wrap = \"clamp\" }\n\
+        [[objects]]\nmaterial = \"print\"\nshape.sphere = { center = [-9, 9, 9], radius = 3 }\n";
+    format!("{before}{image}[materials.glass{after}{print}")
 }
 
 /// What resolves also renders: a part of them is, to see it.

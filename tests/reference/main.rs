@@ -46,6 +46,10 @@ const EXAMPLES: &[(&str, &str)] = &[
         "[environment.image]\nfile = \"data/sky.hdr\"\nilluminant = \"D65\"\nluminance = 400       # or scale = 1\nrotate = 30\ncolor_space = \"srgb\"",
     ),
     (
+        "Image texture",
+        "[materials.sky.diffuse]\nreflectance = { image = \"data/sky.hdr\", scale = [3, 2], wrap = \"clamp\" }    # color_space = \"srgb\" for a PNG",
+    ),
+    (
         "Emission",
         "[[objects]]\nname = \"sodium lamp\"\nshape.disk = { center = [0, 0, 90], radius = 4, normal = [0, 0, -1] }\nemission = { spectrum = { lines = [[589.0, 2], [589.6, 1]] }, luminance = 5000, two_sided = true }",
     ),

@@ -45,7 +45,9 @@ const VALUES: &[(&str, &str)] = &[
     ("Spanned<ExposureValue>", "`\"auto\"` or EV"),
     ("Spanned<IndexSource>", "name, n, or `{ n = …, k = … }`"),
     ("Spanned<AbsorptionSource>", "name, or number in 1/m"),
-    ("Spanned<ReflectanceSource>", "name, number 0…1, or `{ rgb = [r, g, b] }`"),
+    ("Spanned<ReflectanceSource>", "name, number 0…1, `{ rgb = [r, g, b] }`, or [image](#image-texture)"),
+    ("Spanned<RoughnessSource>", "number, or [image](#image-texture)"),
+    ("Numbers<2>", "[u, v]"),
     ("Spanned<Scale>", "factor, or [x, y, z]"),
     ("Spanned<LightSpectrum>", "illuminant's name or file, or [own light](#own-light)"),
 ];

@@ -2,9 +2,9 @@
 
 use super::{Resolver, visible_nm};
 use crate::fresnel::FresnelModel;
-use crate::scene::describe::{self, AbsorptionSource, IndexSource, ReflectanceSource};
+use crate::scene::describe::{self, AbsorptionSource, IndexSource, ReflectanceSource, RoughnessSource};
 use crate::scene::numbers::short;
-use crate::scene::{Interface, Medium, MediumId, SceneError, Surface, Text};
+use crate::scene::{Interface, Medium, MediumId, Pattern, SceneError, Surface, Text};
 use crate::spectrum::{Ior, Spectrum, SpectrumError, Upsampler, nearest};
 use std::fmt::Display;
 use std::ops::{Range, RangeInclusive};
@@ -32,9 +32,13 @@ impl Resolver<'_> {
             return Ok(known);
         }
         let described = self.described(name)?;
-        let surface = self.surface(&described)?;
+        let mut pattern = Pattern::default();
+        let surface = self.surface(&described, &mut pattern)?;
         self.surfaces.push(surface);
         let index = self.surfaces.len() as u32 - 1;
+        if pattern != Pattern::default() {
+            self.patterns.insert(index, pattern);
+        }
         self.by_name.insert(name.get_ref().clone(), index);
         Ok(index)
     }
@@ -73,18 +77,18 @@ impl Resolver<'_> {
         }
     }
 
-    fn surface(&mut self, described: &Described) -> Result<Surface, SceneError> {
+    fn surface(&mut self, described: &Described, pattern: &mut Pattern) -> Result<Surface, SceneError> {
         let Described { material, text, span, .. } = described;
         match (&material.conductor, &material.dielectric, &material.diffuse) {
-            (Some(conductor), None, None) => self.conductor(described, conductor.get_ref()),
+            (Some(conductor), None, None) => self.conductor(described, conductor.get_ref(), pattern),
             (None, Some(dielectric), None) => {
                 let medium = self.medium(described, dielectric)?;
                 let medium = self.add_medium(medium, described)?;
                 let dielectric = dielectric.get_ref();
-                let alpha = roughness(text, &dielectric.roughness, &dielectric.perceptual_roughness)? as f32;
+                let alpha = self.roughness(text, &dielectric.roughness, &dielectric.perceptual_roughness, pattern)?;
                 Ok(Surface::Dielectric(Interface { medium, alpha, model: self.model(dielectric.fresnel) }))
             }
-            (None, None, Some(diffuse)) => self.diffuse(described, diffuse.get_ref()),
+            (None, None, Some(diffuse)) => self.diffuse(described, diffuse.get_ref(), pattern),
             (None, None, None) => Err(text
                 .error(span, format!("material `{}` is of no kind", described.name))
                 .help("give it one of [conductor], [dielectric], [diffuse]")),
@@ -105,13 +109,19 @@ impl Resolver<'_> {
         self.fresnel.or(own).unwrap_or(FresnelModel::Exact)
     }
 
-    fn conductor(&mut self, described: &Described, conductor: &describe::Conductor) -> Result<Surface, SceneError> {
+    fn conductor(
+        &mut self,
+        described: &Described,
+        conductor: &describe::Conductor,
+        pattern: &mut Pattern,
+    ) -> Result<Surface, SceneError> {
         let ior = self.ior(described, &conductor.ior)?;
-        let alpha = roughness(&described.text, &conductor.roughness, &conductor.perceptual_roughness)?;
+        let (text, words) = (&described.text, [&conductor.roughness, &conductor.perceptual_roughness]);
+        let alpha = self.roughness(text, words[0], words[1], pattern)?;
         Ok(Surface::Conductor {
             n: self.spectra.add(ior.n.clone()),
             k: self.spectra.add(ior.k.clone()),
-            alpha: alpha as f32,
+            alpha,
             model: self.model(conductor.fresnel),
         })
     }
@@ -191,7 +201,12 @@ impl Resolver<'_> {
         }
     }
 
-    fn diffuse(&mut self, described: &Described, diffuse: &describe::Diffuse) -> Result<Surface, SceneError> {
+    fn diffuse(
+        &mut self,
+        described: &Described,
+        diffuse: &describe::Diffuse,
+        pattern: &mut Pattern,
+    ) -> Result<Surface, SceneError> {
         let (text, source) = (&described.text, &diffuse.reflectance);
         let spectrum = match source.get_ref() {
             ReflectanceSource::Name(name) => {
@@ -207,33 +222,50 @@ impl Resolver<'_> {
             &ReflectanceSource::Rgb(rgb) => {
                 Upsampler::new(self.library)?.reflectance(rgb).map_err(|error| text.error(&source.span(), error))?
             }
+            ReflectanceSource::Image(texture) => {
+                pattern.reflectance = Some(self.reflectances(text, texture)?);
+                pattern.files.push(texture.image.get_ref().clone());
+                // Taken by nothing.
+                Spectrum::Constant(0.0)
+            }
         };
         Ok(Surface::Diffuse { reflectance: self.spectra.add(spectrum) })
     }
-}
 
-/// GGX α from either of the two words for it.
-fn roughness(
-    text: &Text,
-    alpha: &Option<describe::Number>,
-    perceptual: &Option<describe::Number>,
-) -> Result<f64, SceneError> {
-    let (number, name) = match (alpha, perceptual) {
-        (None, None) => return Ok(0.0),
-        (Some(alpha), None) => (alpha, "roughness"),
-        (None, Some(r)) => (r, "perceptual_roughness"),
-        (Some(_), Some(r)) => {
-            let message = "`roughness` and `perceptual_roughness` both say how rough the surface is";
-            return Err(text
-                .error(&r.span(), message)
-                .help("`roughness` is α itself; `perceptual_roughness` r means α = r²"));
+    /// GGX α from either of the two words for it; of a picture, the largest.
+    fn roughness(
+        &mut self,
+        text: &Text,
+        alpha: &Option<Spanned<RoughnessSource>>,
+        perceptual: &Option<Spanned<RoughnessSource>>,
+        pattern: &mut Pattern,
+    ) -> Result<f32, SceneError> {
+        let (source, name) = match (alpha, perceptual) {
+            (None, None) => return Ok(0.0),
+            (Some(alpha), None) => (alpha, "roughness"),
+            (None, Some(r)) => (r, "perceptual_roughness"),
+            (Some(_), Some(r)) => {
+                let message = "`roughness` and `perceptual_roughness` both say how rough the surface is";
+                return Err(text
+                    .error(&r.span(), message)
+                    .help("`roughness` is α itself; `perceptual_roughness` r means α = r²"));
+            }
+        };
+        let of = |value: f64| if name == "roughness" { value } else { value * value };
+        match source.get_ref() {
+            &RoughnessSource::Constant(value) if (0.0..=1.0).contains(&value) => Ok(of(value) as f32),
+            RoughnessSource::Constant(value) => {
+                Err(text.error(&source.span(), format!("`{name}` is {value}: it lies between 0 and 1")))
+            }
+            RoughnessSource::Image(texture) => {
+                let alphas = self.data_texels(text, texture)?.map(|value| of(f64::from(value)) as f32);
+                let largest = alphas.all().iter().copied().fold(0.0, f32::max);
+                pattern.alpha = Some(alphas);
+                pattern.files.push(texture.image.get_ref().clone());
+                Ok(largest)
+            }
         }
-    };
-    let value = *number.get_ref();
-    if !(0.0..=1.0).contains(&value) {
-        return Err(text.error(&number.span(), format!("`{name}` is {value}: it lies between 0 and 1")));
     }
-    Ok(if name == "roughness" { value } else { value * value })
 }
 
 /// What is wrong with an index: a constant, or data with a formula that does not hold over the whole visible.

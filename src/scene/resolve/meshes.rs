@@ -81,6 +81,7 @@ impl Resolver<'_> {
             return Ok(known.clone());
         }
         let (span, name) = (file.span(), file.get_ref());
+        self.files.insert(key.0.clone());
         let mut file = loaders::load(&key.0).map_err(|error| self.text.error(&span, error))?;
         self.warnings.extend(file.notes.iter().map(|note| format!("{name}: {note}")));
         let ready = |part: &mut loaders::Part| {

@@ -5,6 +5,7 @@ mod emission;
 mod materials;
 mod meshes;
 mod objects;
+mod patterns;
 mod picture;
 mod points;
 mod provenance;
@@ -17,7 +18,7 @@ mod view;
 pub use settings::Overrides;
 
 use super::describe::{self, SceneFile};
-use super::{DataSet, Medium, Scene, SceneError, Surface, Text};
+use super::{DataSet, Medium, Pattern, Scene, SceneError, Surface, Text};
 use crate::fresnel::FresnelModel;
 use crate::geometry::{Bounds, World};
 use crate::light::{Environment, Lights};
@@ -26,6 +27,7 @@ use glam::{DVec3, Vec3};
 use meshes::Meshes;
 use objects::Objects;
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
 use std::sync::Arc;
 use toml::Spanned;
 
@@ -44,6 +46,7 @@ pub fn resolve(text: Text, library: &Library, overrides: &Overrides) -> Result<S
         observer_1931,
         spectra: Arena::default(),
         surfaces: Vec::new(),
+        patterns: BTreeMap::new(),
         media: Vec::new(),
         by_name: BTreeMap::new(),
         white_candidates: Vec::new(),
@@ -51,6 +54,7 @@ pub fn resolve(text: Text, library: &Library, overrides: &Overrides) -> Result<S
         warnings: Vec::new(),
         sources: Vec::new(),
         meshes: BTreeMap::new(),
+        files: BTreeSet::new(),
     };
     resolver.scene(&file, overrides)
 }
@@ -66,6 +70,7 @@ struct Resolver<'a> {
     observer_1931: Arc<ColorMatching>,
     spectra: Arena,
     surfaces: Vec<Surface>,
+    patterns: BTreeMap<u32, Pattern>,
     media: Vec<Medium>,
     by_name: BTreeMap<String, u32>,
     /// Lights by how much they matter for what is white.
@@ -74,6 +79,8 @@ struct Resolver<'a> {
     warnings: Vec<String>,
     sources: Vec<Text>,
     meshes: Meshes,
+    /// Meshes and pictures that were read.
+    files: BTreeSet<PathBuf>,
 }
 
 impl Resolver<'_> {
@@ -110,6 +117,7 @@ impl Resolver<'_> {
             world,
             objects,
             surfaces: self.surfaces,
+            patterns: self.patterns,
             media: self.media,
             lights,
             camera,
@@ -120,7 +128,7 @@ impl Resolver<'_> {
             data: self.data,
             warnings: self.warnings,
             sources: self.sources,
-            files: self.meshes.into_keys().map(|(path, _)| path).collect(),
+            files: self.files.into_iter().collect(),
         })
     }
 

@@ -104,6 +104,7 @@ impl Resolver<'_> {
         if let Surface::Dielectric(_) = self.surfaces[surface as usize] {
             self.check_dielectric(object, &shape, &name)?;
         }
+        self.check_coordinates(object, surface, &shape, &name)?;
         if let Some(emission) = &object.emission {
             let id = ShapeId(all.shapes.len() as u32);
             all.emitters.push(self.emitter(emission.get_ref(), &name, id, &shape)?);
@@ -163,6 +164,25 @@ impl Resolver<'_> {
                 Err(self.text.error(&emission.span(), format!("{name} is a dielectric: it cannot shine")))
             }
             None => Ok(()),
+        }
+    }
+
+    /// Pictures lie on a shape by its texture coordinates.
+    fn check_coordinates(
+        &self,
+        object: &describe::Object,
+        surface: u32,
+        shape: &Shape,
+        name: &str,
+    ) -> Result<(), SceneError> {
+        match self.patterns.get(&surface) {
+            Some(pattern) if !shape.has_uv() => {
+                let files = pattern.files.join("` and `");
+                let message = format!("{name} has no texture coordinates, by which `{files}` could lie on it");
+                let error = self.text.error(&object.shape.span(), message);
+                Err(error.help("spheres, rectangles and disks have them, and meshes whose file brings them"))
+            }
+            _ => Ok(()),
         }
     }
 

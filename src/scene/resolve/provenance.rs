@@ -31,6 +31,10 @@ impl Resolver<'_> {
         self.data.push(DataSet { used_by: used_by.to_owned(), about: about.clone() });
     }
 
+    pub fn warn_of_chromaticities(&mut self, file: &str) {
+        self.warnings.push(format!("`{file}` states chromaticities that make no colours: taken for sRGB"));
+    }
+
     pub fn warn_of_darkness(&mut self) {
         if self.white_candidates.iter().all(|&(power, _)| power == 0.0) {
             self.warnings.push("nothing in this scene shines: the picture will be black".into());

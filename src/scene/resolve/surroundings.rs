@@ -78,6 +78,7 @@ impl Resolver<'_> {
     fn raster(&mut self, image: &EnvironmentImage) -> Result<Raster, SceneError> {
         let (name, span) = (image.file.get_ref(), image.file.span());
         let path = self.text.base().join(name);
+        self.files.insert(path.clone());
         let raster = texture::read(&path, BESIDE).map_err(|error| self.text.error(&span, error))?;
         if raster.encoding != Encoding::Linear {
             let message = format!("`{name}` holds what a display shows, not the light of surroundings");
@@ -105,7 +106,7 @@ impl Resolver<'_> {
             Some((Some(space), _)) => (space, None),
             Some((None, Some(matrix))) => (WIDE, Some(matrix)),
             Some((None, None)) => {
-                self.warnings.push(format!("`{name}` states chromaticities that make no colours: taken for sRGB"));
+                self.warn_of_chromaticities(name);
                 (RgbSpace::Srgb, None)
             }
         };
