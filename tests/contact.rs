@@ -2,11 +2,12 @@
 //!
 //! Blocks wide enough to be plates: glass on water face to face is one boundary between two media, whether the faces are boxes'
 //! or meshes', along the axes or turned so that rounding parts them; overlaps belong to one of the two; shells hold what is in
-//! them. Expected is the series of `common::paper` for the media in their order; a film of air between them, or the other order
+//! them. Expected is the series of `common::plates` for the media in their order; a film of air between them, or the other order
 //! of rank, must be rejected.
 
 mod common;
 
+use common::compare::{apart, renders};
 use common::files::{cuboid, hollowed, obj};
 use common::plates::{Layer, check, half_sky, looking, pile, seen};
 use common::{film, lanes::with, mean, scene};
@@ -171,6 +172,28 @@ fn two_blocks_of_one_glass_are_one_block() {
             let name = format!("{first:?} on {second:?}, {overlap} shared");
             through(&name, 1.0, &(upper + &lower), &[whole], &[&[half, AIR, half]]);
         }
+    }
+}
+
+/// Where rough glass touches the same glass there is nothing to scatter; across a gap there is.
+#[test]
+fn two_blocks_of_one_rough_glass_are_one_block() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let glass = "materials.frosted.dielectric = { ior = 1.5, absorption = 0.3, roughness = 0.2 }\n";
+    let pictures = |objects: &str, first: u64| {
+        let text = seen(DVec3::Z, 0.7, 1) + &half_sky("\"E\"", false) + glass + objects;
+        renders(&mut scene(&text, &with(8, 4 * SAMPLES)), first..first + 16)
+    };
+    let frosted = |kind, heights| object("frosted", &block(folder.path(), kind, 200.0, heights), "");
+    let one = pictures(&frosted(Kind::Box, [-1.0, 1.0]), 0);
+    for [first, second] in PAIRS {
+        let (upper, lower) = (frosted(first, [0.0, 1.0]), frosted(second, [-1.0, 0.0]));
+        let found = apart(&one, &pictures(&(upper.clone() + &lower), 100), [2, 2]);
+        println!("frosted {first:?} on {second:?}: {found:.4?}");
+        assert!(found.agrees() && found.relative < 5e-3, "{first:?} on {second:?}: {found:?}");
+        let gap = frosted(second, [-1.01, -0.01]);
+        let found = apart(&one, &pictures(&(upper + &gap), 100), [2, 2]);
+        assert!(!found.agrees(), "{first:?} over {second:?}: {found:?}");
     }
 }
 

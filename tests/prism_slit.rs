@@ -20,13 +20,19 @@ mod meshes;
 const COLUMNS: u32 = 400;
 const ROWS: u32 = 4;
 
+/// Columns on either side of the brightest that belong to the slit.
+const NEAR: usize = 8;
+
 /// Half the slit's width.
 const HALF_SLIT: f64 = 0.02;
+
+/// From the prism's middle to its faces.
+const SIZE: f64 = 3.0;
 
 /// Planes n·x ≤ d of the prism: its edge runs along y, up.
 fn faces() -> [(DVec3, f64); 3] {
     let (sin, cos) = 30f64.to_radians().sin_cos();
-    [(DVec3::new(-cos, 0.0, sin), 1.0), (DVec3::new(cos, 0.0, sin), 1.0), (DVec3::NEG_Z, 1.0)]
+    [(DVec3::new(-cos, 0.0, sin), SIZE), (DVec3::new(cos, 0.0, sin), SIZE), (DVec3::NEG_Z, SIZE)]
 }
 
 /// Snell's law for a ray that meets a plane whose normal looks against it.
@@ -64,7 +70,7 @@ impl Bench {
         let incidence = (0.5 * n).asin();
         let (normal, along) = (faces()[0].0, DVec3::new(0.5, 0.0, 0.75f64.sqrt()));
         let forward = -normal * incidence.cos() + along * incidence.sin();
-        let camera = normal - 30.0 * forward;
+        let camera = SIZE * normal - 30.0 * forward;
         let (exit, out) = through(camera, forward, n);
         Self { camera, forward, slit: exit + 40.0 * out, facing: -out, fov }
     }
@@ -118,11 +124,15 @@ impl Bench {
             self.facing.to_array(),
         );
         let film = film(&scene(&text, &with(8, 64)));
-        let (mut light, mut moment) = (0.0, 0.0);
-        for (i, pixel) in (0..).zip(film.pixels()) {
-            light += pixel.mean()[1];
-            moment += pixel.mean()[1] * (f64::from(i % COLUMNS) + 0.5);
+        let mut columns = vec![0.0; COLUMNS as usize];
+        for (i, pixel) in film.pixels().iter().enumerate() {
+            columns[i % COLUMNS as usize] += pixel.mean()[1];
         }
+        // Around the brightest: light thrown to and fro within the prism shows the slit a second time, faint and elsewhere.
+        let brightest = (0..columns.len()).max_by(|&a, &b| columns[a].total_cmp(&columns[b])).expect("columns");
+        let near = brightest.saturating_sub(NEAR)..columns.len().min(brightest + NEAR + 1);
+        let light: f64 = columns[near.clone()].iter().sum();
+        let moment: f64 = near.map(|x| columns[x] * (x as f64 + 0.5)).sum();
         (moment / light, light)
     }
 }

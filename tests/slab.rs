@@ -1,7 +1,7 @@
 //! A plane-parallel plate that absorbs, against the series of its reflections.
 //!
 //! R + T²Rτ²/(1 − R²τ²) comes back and T²τ/(1 − R²τ²) goes through, T = 1 − R by Fresnel for light without polarisation and
-//! τ = exp(−αd/cos θ_t) (`common::paper`). The sky shines from one side only, so that the two are seen apart. The plate is a
+//! τ = exp(−αd/cos θ_t) (`common::plates`). The sky shines from one side only, so that the two are seen apart. The plate is a
 //! `box`, whose light is traced within the solid alone, and a mesh of twelve triangles, whose light asks the scene; of glass
 //! of one index, where eight wavelengths go together, and of BK7, where they part.
 

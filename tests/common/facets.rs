@@ -12,7 +12,7 @@ use super::plates::fresnel;
 use libm::lgamma;
 use std::f64::consts::PI;
 
-/// Points over s and φ, and cosines of the grid. Doubling both moves what comes out by less than 2e-4.
+/// Points over s and φ, and cosines of the grid. Doubling all three moves a ball's mean by 2e-5, single angles by 3e-4 at most.
 const S: usize = 96;
 const PHI: usize = 128;
 const GRID: usize = 160;
