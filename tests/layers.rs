@@ -89,6 +89,18 @@ fn near(a: [f32; 3], b: [f32; 3], tolerance: f32) -> bool {
 }
 
 #[test]
+fn the_albedo_of_a_picture_is_its_colour() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("paper.exr");
+    for rgb in [[0.5; 3], [0.6, 0.2, 0.1], [0.05, 0.3, 0.7]] {
+        common::pictures::write_exr(&file, 2, &[rgb; 4]);
+        let picture = format!("{{ diffuse = {{ reflectance = {{ image = {:?} }} }} }}", file.display().to_string());
+        let (albedo, _) = albedo_and_normal(&sheet(&picture), Guides::first_hit);
+        assert!(near(albedo, rgb, 1e-3), "{albedo:?} of {rgb:?}");
+    }
+}
+
+#[test]
 fn albedo_is_the_colour_of_the_surface_whatever_its_light() {
     let of = |material: &str| albedo_and_normal(&sheet(material), Guides::first_hit).0;
     assert!(near(of("{ diffuse = { reflectance = 0.25 } }"), [0.25; 3], 1e-6));

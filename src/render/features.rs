@@ -16,8 +16,13 @@ use crate::bsdf::conductor::MIRROR_ALPHA;
 use crate::bsdf::dielectric::reflect;
 use crate::geometry::{Hit, Ray, Side};
 use crate::scene::{MediumId, Needs, Scene, Surface};
-use crate::spectrum::{Daylight, Lanes, Matrix3, NODE_COUNT, Nodes, RgbSpace, Spectrum, SpectrumId, Xyz, bradford};
+use crate::spectrum::{
+    Daylight, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Lanes, Matrix3, NODE_COUNT, Nodes, RgbSpace, Spectrum, SpectrumId, Tint,
+    Xyz, bradford,
+};
+use crate::texture::Texels;
 use glam::Vec3;
+use std::collections::BTreeMap;
 
 /// Mirrors that are followed one after another.
 const MIRRORS: u32 = 4;
@@ -43,6 +48,8 @@ impl Seen {
 pub struct Guides {
     /// By surface, not cut.
     albedos: Vec<[f32; 3]>,
+    /// Colours of the pictures on surfaces.
+    printed: BTreeMap<u32, Texels<[f32; 3]>>,
     mirrors: bool,
 }
 
@@ -50,7 +57,13 @@ impl Guides {
     /// For the first surface of every ray, in the RGB of a picture.
     pub fn first_hit(scene: &Scene, needs: &Needs, space: RgbSpace) -> Self {
         let white = White::new(scene, needs, space);
-        Self { albedos: scene.surfaces.iter().map(|surface| white.albedo(surface)).collect(), mirrors: false }
+        let pictures =
+            scene.patterns.iter().filter_map(|(&surface, pattern)| Some((surface, pattern.reflectance.as_ref()?)));
+        Self {
+            albedos: scene.surfaces.iter().map(|surface| white.albedo(surface)).collect(),
+            printed: pictures.map(|(surface, picture)| (surface, white.colors(picture))).collect(),
+            mirrors: false,
+        }
     }
 
     /// For what is seen in mirrors, as denoisers want it.
@@ -71,7 +84,7 @@ impl Guides {
     fn follow(&self, scene: &Scene, mut ray: Ray, mut hit: Hit, first: Seen) -> Seen {
         let (mut seen, mut tint) = (first, [1.0; 3]);
         for _ in 0..MIRRORS {
-            if !is_mirror(surface(scene, &hit)) {
+            if !is_mirror(scene, &hit) {
                 break;
             }
             tint = product(tint, self.at(scene, &hit).albedo);
@@ -86,17 +99,24 @@ impl Guides {
     }
 
     fn at(&self, scene: &Scene, hit: &Hit) -> Seen {
-        let index = scene.object(hit.shape).surface as usize;
-        Seen { albedo: self.albedos[index], normal: facing(hit) }
+        let surface = scene.object(hit.shape).surface;
+        let albedo = match self.printed.get(&surface) {
+            None => self.albedos[surface as usize],
+            Some(picture) => {
+                let around = picture.around(scene.world.uv(hit).unwrap_or_default());
+                std::array::from_fn(|channel| around.iter().map(|(color, weight)| color[channel] * weight).sum())
+            }
+        };
+        Seen { albedo, normal: facing(hit) }
     }
 }
 
-fn surface<'a>(scene: &'a Scene, hit: &Hit) -> &'a Surface {
-    &scene.surfaces[scene.object(hit.shape).surface as usize]
-}
-
-fn is_mirror(surface: &Surface) -> bool {
-    matches!(surface, Surface::Conductor { alpha, .. } if *alpha < MIRROR_ALPHA)
+/// Whether all of what is hit is a smooth metal.
+fn is_mirror(scene: &Scene, hit: &Hit) -> bool {
+    let surface = scene.object(hit.shape).surface;
+    let varies = scene.patterns.get(&surface).is_some_and(|pattern| pattern.alpha.is_some());
+    let smooth = matches!(scene.surfaces[surface as usize], Surface::Conductor { alpha, .. } if alpha < MIRROR_ALPHA);
+    smooth && !varies
 }
 
 /// The smooth normal on the side that a ray comes to.
@@ -129,6 +149,33 @@ impl<'a> White<'a> {
         let adapt = bradford(white.map(|c| c / white[1]), space.white_xyz());
         let scale = Matrix3::diagonal([1.0 / white[1]; 3]);
         Self { scene, nodes, weights, rgb_from_xyz: space.rgb_from_xyz().after(&adapt).after(&scale) }
+    }
+
+    /// A picture's colours, by 2 nm at a time: at 10 nm reds were 0.3 % off.
+    fn colors(&self, picture: &Texels<Tint>) -> Texels<[f32; 3]> {
+        const BAND_NM: f64 = 2.0;
+        let mut bands: BTreeMap<u32, (f64, f64, Xyz)> = BTreeMap::new();
+        for (index, weight) in (0..NODE_COUNT).zip(&self.weights) {
+            let nm = self.nodes.wavelength_nm(index);
+            let (sum, count, total) = bands.entry((nm / BAND_NM) as u32).or_default();
+            *sum += nm * weight[1];
+            *count += weight[1];
+            *total = std::array::from_fn(|i| total[i] + weight[i]);
+        }
+        let bands: Vec<(f32, Xyz)> = bands
+            .into_values()
+            .filter(|(_, count, _)| *count > 0.0)
+            .map(|(sum, count, total)| {
+                (((sum / count - LAMBDA_MIN_NM) / (LAMBDA_MAX_NM - LAMBDA_MIN_NM)) as f32, total)
+            })
+            .collect();
+        picture.clone().map(|tint| {
+            let seen = bands.iter().map(|(t, weight)| {
+                let value = f64::from(tint.at(Lanes([*t]))[0]);
+                weight.map(|w| w * value)
+            });
+            self.rgb_from_xyz.apply(sum(seen)).map(|channel| channel as f32)
+        })
     }
 
     fn albedo(&self, surface: &Surface) -> [f32; 3] {

@@ -18,9 +18,10 @@ use crate::spectrum::Lanes;
 /// error for the time (2.3 × on metals).
 const ROULETTE: f32 = 3.0;
 
-/// From this depth on a path survives with at most [`LATE_SURVIVAL`], so that light caught by total reflection ends too.
-const LATE: u32 = 64;
-const LATE_SURVIVAL: f32 = 0.95;
+/// From this depth on a path survives with at most [`LATE_SURVIVAL`], so that light caught by total reflection ends too. (64 and 0.95
+/// took no less time on clear solids, and a ball of flat glass in a furnace came out at 99.84 ± 0.02 instead of 99.995 ± 0.009.)
+const LATE: u32 = 256;
+const LATE_SURVIVAL: f32 = 0.98;
 
 /// A path on its way.
 #[derive(Clone, Copy, Debug)]
