@@ -1,0 +1,138 @@
+"""The report: tables, what they mean, and the page that holds them."""
+
+import datetime
+
+import numpy as np
+
+import mitsuba as mi
+import renderers
+import spectra
+
+LIMIT = 0.2
+CHANNELS = "YXZ"
+LIGHTS = ["A", "D50", "D65"]
+
+
+def tables(sections):
+    lines = []
+    for title, rows in sections:
+        lines += [f"### {title[0].upper()}{title[1:]}", ""]
+        lines += ["| region | pixels | " + " | ".join(f"{c}, %" for c in CHANNELS) + " |", "|---|--:|--:|--:|--:|"]
+        for region, pixels, (x, y, z) in rows:
+            lines.append(f"| {region} | {pixels} | {y} | {x} | {z} |")
+        lines.append("")
+    return "\n".join(lines)
+
+
+def summary(sections):
+    """One line a section: how far, how often the interval holds zero, how fine it could see."""
+    lines = [
+        "| scene | whole picture, Y, % | largest of a region, % | intervals that hold 0 "
+        f"| surely beyond {LIMIT} % | widest interval of Y, % |",
+        "|---|--:|--:|--:|--:|--:|",
+    ]
+    for title, rows in sections:
+        every = [(deviation, region, c) for region, _, found in rows for c, deviation in zip("XYZ", found)]
+        largest, region, channel = max(every, key=lambda one: abs(one[0].percent))
+        agree = sum(deviation.agrees() for deviation, _, _ in every)
+        beyond = sum(deviation.beyond(LIMIT) for deviation, _, _ in every)
+        widest = max(found[1].half_width for _, _, found in rows)
+        lines.append(
+            f"| {title} | {rows[0][2][1]} | {largest} ({region}, {channel}) | {agree} of {len(every)} | {beyond} | {widest:.3f} |"
+        )
+    return "\n".join(lines) + "\n"
+
+
+def observers():
+    """What remains between the two observers once the constant is allowed for: lights alone, by quadrature."""
+    ours = spectra.observer()
+    nm = np.arange(spectra.RANGE_NM[0], spectra.RANGE_NM[1] + 1, 5)
+    theirs = nm, np.array([np.array(mi.cie1931_xyz(float(x))).ravel() for x in nm])
+    lines = ["| light | X, % | Y, % | Z, % |", "|---|--:|--:|--:|"]
+    for name in LIGHTS:
+        light = spectra.illuminant(name)
+        ratio = spectra.integral(light, ours) / spectra.integral(light, theirs)
+        lines.append(f"| {name} | " + " | ".join(f"{(x - 1) * 100:+.4f}" for x in ratio) + " |")
+    integral = spectra.integral((nm, np.ones(len(nm))), theirs)[1]
+    return integral, "\n".join(lines) + "\n"
+
+
+PAGE = """\
+# Against Mitsuba 3
+
+An outside check: the same scenes rendered by spectrel and by [Mitsuba 3](https://mitsuba-renderer.org), a renderer that shares
+no line of code with it. This page is written by `python3 benches/peers/compare.py --write`; every figure below is of that run.
+
+- {spectrel}; {mitsuba}, `path` integrator; {date}
+- {replicates} renders of each with {samples} samples a pixel, each with a seed of its own; box filter, no limit on path length but roulette
+- The scenes are the three `.toml` files here. `translate.py` turns them into Mitsuba scenes and stops at anything it does not know;
+  n and k, reflectances and lights are read from `spectra/` at run time and handed over as tables, lights in W m⁻² sr⁻¹ nm⁻¹
+
+## Result
+
+Figures are 100 (spectrel / Mitsuba − 1), with the half width of the 95 % confidence interval from the scatter between renders.
+The aim is means within {limit} %.
+
+{summary}
+## What is allowed for
+
+1. **Mitsuba's constant.** It divides XYZ by {constant:.4f}, while its own observer integrates to {integral:.4f}: a white light of
+   luminance 1 comes out as {factor:.5f}. Its pictures are multiplied by 683 × {constant:.4f}, which undoes the division and gives cd/m².
+   Nothing is fitted: the region `sky` shows the light itself.
+2. **The masking term of rough metal.** Mitsuba multiplies Smith's terms for the two directions as if they were independent, spectrel
+   uses the height-correlated form, which is brighter. The scene with rough metals is therefore rendered twice by Mitsuba: as it is,
+   and through a material that wraps Mitsuba's own and multiplies it by (1 + Λi)(1 + Λo) / (1 + Λi + Λo), the quotient of the two. Its
+   normals, Fresnel term and sampling stay Mitsuba's own.
+3. **The observer between 5 nm.** Both sample wavelengths over 360–830 nm, but Mitsuba's observer is a table of 5 nm, spectrel's one of 1 nm, both
+   read linearly. For the lights of these scenes alone, by quadrature, spectrel / Mitsuba − 1 is (not corrected, for it is small):
+
+{observers}
+Not allowed for, because alike: Mitsuba's lamps are given a black surface of their own (spectrel's are black, Mitsuba's half grey
+unless told), `uniform` spectra stand where a plain number would pass through an RGB model, and tables that end inside the visible keep
+their end value, as spectrel reads them.
+
+## By region
+
+A pixel belongs to an object if rays through its corners and its centre meet it. Neither the regions nor the channels are independent of
+each other, so of many intervals about one in twenty misses zero by chance, and neighbours miss it together.
+
+{tables}
+## Again
+
+    cargo build --release
+    python3 benches/peers/compare.py --write
+
+Needs Python 3.11 or newer; `requirements.txt` is installed below `target/` the first time. `--pictures` writes both pictures and their
+difference there, `--samples 64 glass` is a quick look, `--time` prints error against CPU time.
+"""
+
+
+def page(sections, options):
+    spectrel, mitsuba = renderers.versions()
+    integral, lights = observers()
+    return PAGE.format(
+        spectrel=spectrel,
+        mitsuba=mitsuba,
+        date=datetime.date.today().isoformat(),
+        replicates=options.replicates,
+        samples=options.samples,
+        limit=LIMIT,
+        summary=summary(sections),
+        constant=renderers.MITSUBA_CONSTANT,
+        integral=integral,
+        factor=integral / renderers.MITSUBA_CONSTANT,
+        observers=lights,
+        tables=tables(sections),
+    )
+
+
+def write_pictures(path, ours, theirs):
+    """spectrel, Mitsuba, and their difference in Y (grey is none, black and white are 20 % of the picture's mean)."""
+    to_rgb = np.array([[3.2405, -1.5371, -0.4985], [-0.9693, 1.8760, 0.0416], [0.0556, -0.2040, 1.0572]])
+    a, b = np.mean(ours, axis=0), np.mean(theirs, axis=0)
+    colour = np.concatenate([a, b], axis=1) @ to_rgb.T
+    colour = np.clip(colour / np.percentile(colour, 97), 0, 1) ** (1 / 2.2)
+    difference = np.clip(0.5 + 2.5 * (a - b)[..., 1] / b[..., 1].mean(), 0, 1)
+    picture = np.concatenate([colour, np.repeat(difference[..., None], 3, axis=2)], axis=1)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    mi.Bitmap((np.kron(picture, np.ones((4, 4, 1))) * 255).astype(np.uint8)).write(str(path))
