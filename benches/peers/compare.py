@@ -57,38 +57,40 @@ def arguments():
 
 
 def compare(name, options):
-    """Pairs of a title and rows of (region, pixels, deviations), and both mean pictures."""
+    """Two sections of rows (region, pixels, deviations): alike, and each as it is; and the pictures of the first."""
     import measure
     import regions
+    import renderers
+    import spectra
     import translate
-    from renderers import Mitsuba, Spectrel
 
     path = HERE / f"{name}.toml"
     description = translate.load(path)
+    library = WORK / "library"
+    spectra.write_observer(library, *renderers.observer())
     rough = any("roughness" in material.get("conductor", {}) for material in description["materials"].values())
-    peers = {name: Mitsuba(description)}
-    if rough:
-        peers = {
-            f"{name}, masking term exchanged in Mitsuba": Mitsuba(description, correlated=True),
-            f"{name}, Mitsuba as it is": peers[name],
-        }
-    masks = regions.of(next(iter(peers.values())).scene, description)
 
     def replicates(renderer, first):
-        return [renderer.render(options.samples, first + i)[0] for i in range(options.replicates)]
+        # Seeds apart: the generators differ, but nothing is lost by not sharing them.
+        return [renderer.render(options.samples, first + 100 * i)[0] for i in range(options.replicates)]
 
-    # Seeds apart: the generators differ, but nothing is lost by not sharing them.
-    ours = replicates(Spectrel(path), 1000)
-    sections, pictures = [], []
-    for number, (title, peer) in enumerate(peers.items()):
-        theirs = replicates(peer, 2000 + 1000 * number)
-        rows = [
-            (region, int(mask.sum()), measure.deviations(measure.means(ours, mask), measure.means(theirs, mask)))
-            for region, mask in masks.items()
-        ]
-        sections.append((title, rows))
-        pictures.append((ours, theirs))
-    return sections, pictures[0]
+    peer = renderers.Mitsuba(description)
+    masks = regions.of(peer.scene, description)
+    ours_alike = replicates(renderers.Spectrel(path, library), 3)
+    ours = replicates(renderers.Spectrel(path), 4)
+    theirs = theirs_alike = replicates(peer, 1)
+    if rough:
+        theirs_alike = replicates(renderers.Mitsuba(description, correlated=True), 2)
+
+    def section(a, b):
+        rows = []
+        for region, mask in masks.items():
+            found = measure.deviations(measure.means(a, mask), measure.means(b, mask))
+            rows.append((region, int(mask.sum()), found))
+        return rows
+
+    alike, as_they_are = section(ours_alike, theirs_alike), section(ours, theirs)
+    return [(f"{name}, alike", alike), (f"{name}, as they are", as_they_are)], (ours_alike, theirs_alike)
 
 
 def main():

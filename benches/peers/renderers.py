@@ -21,14 +21,17 @@ SPECTREL = Path(os.environ.get("SPECTREL", spectra.ROOT / "target" / "release" /
 
 
 class Spectrel:
-    def __init__(self, path):
+    """With a folder of data to be searched before its own, if one is given."""
+
+    def __init__(self, path, library=None):
         self.path = path
+        self.library = ["--library", library] if library else []
 
     def render(self, samples, seed):
         """The picture and the CPU seconds of the whole process."""
         with tempfile.TemporaryDirectory() as folder:
             output = Path(folder) / "picture.exr"
-            command = [SPECTREL, "render", self.path, "--exr-xyz", "-q", "-o", output]
+            command = [SPECTREL, "render", self.path, "--exr-xyz", "-q", "-o", output, *self.library]
             command += ["--spp", str(samples), "--seed", str(seed)]
             before = children()
             subprocess.run(command, check=True)
@@ -47,6 +50,12 @@ class Mitsuba:
         before = time.process_time()
         picture = np.array(mi.render(self.scene, spp=samples, seed=seed), dtype=np.float64)
         return picture * TO_CANDELA, time.process_time() - before
+
+
+def observer():
+    """Mitsuba's own table of the 1931 observer, at its points."""
+    nm = np.arange(spectra.RANGE_NM[0], spectra.RANGE_NM[1] + 1, 5)
+    return nm, np.array([np.array(mi.cie1931_xyz(float(x))).ravel() for x in nm], dtype=np.float64)
 
 
 def children():

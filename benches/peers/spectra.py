@@ -71,8 +71,36 @@ def integral(a, b):
 
 
 def emission(entry):
-    """Spectral radiance in W m⁻² sr⁻¹ nm⁻¹ of a scene's `{ spectrum, luminance }`."""
+    """Spectral radiance in W m⁻² sr⁻¹ nm⁻¹ of a scene's `{ spectrum, radiance }`.
+
+    The scenes state radiance rather than luminance, so that no observer has a say in the light.
+    """
     nm, value = illuminant(entry["spectrum"])
-    nm_y, xyz = observer()
-    luminance = LUMENS_PER_WATT * integral((nm, value), (nm_y, xyz[:, 1]))[0]
-    return nm, value * (entry["luminance"] / luminance)
+    total = integral((nm, value), (np.array(RANGE_NM), np.ones(2)))[0]
+    return nm, value * (entry["radiance"] / total)
+
+
+OBSERVER_HEAD = """\
+quantity = "observer"
+
+[source]
+title = "The 1931 observer at the points of a peer"
+authors = "see the peer"
+licence = "facts (published standard)"
+origin = "asked of the peer at run time"
+
+[sample]
+description = "colour matching functions, linear in between"
+confidence = "high"
+
+[table]
+"""
+
+
+def write_observer(folder, nm, xyz):
+    """A data folder for `spectrel --library` whose 1931 observer is this table."""
+    path = folder / "spectra" / "observer" / "cie-1931-2.toml"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    columns = zip(["wavelength_nm", *"xyz"], [nm, *xyz.T])
+    lines = [f"{name} = [{', '.join(repr(float(x)) for x in column)}]\n" for name, column in columns]
+    path.write_text(OBSERVER_HEAD + "".join(lines))

@@ -38,7 +38,7 @@ def constant(value):
 
 
 def emission(entry):
-    return spectrum(*spectra.emission(only(entry, "spectrum", "luminance")))
+    return spectrum(*spectra.emission(only(entry, "spectrum", "radiance")))
 
 
 def bsdf(material, correlated):
