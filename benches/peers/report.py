@@ -1,6 +1,7 @@
 """The report: tables, what they mean, and the page that holds them."""
 
 import datetime
+from dataclasses import asdict, dataclass, field
 
 import numpy as np
 
@@ -8,10 +9,34 @@ import mitsuba as mi
 import renderers
 import spectra
 import timing
+from measure import Deviation
 
 LIMIT = 0.2
 CHANNELS = "YXZ"
 LIGHTS = [("A", None), ("D65", None), ("A", "red"), ("A", "green"), ("D65", "orange"), ("D65", "neutral-5")]
+
+
+@dataclass
+class Result:
+    """Of one scene: sections of a title and rows of (region, pixels, deviations), and the table of times if there is one."""
+
+    sections: list
+    times: str = ""
+    date: str = field(default_factory=lambda: datetime.date.today().isoformat())
+
+    def __str__(self):
+        return f"{tables(self.sections)}\n{summary(self.sections)}\n{self.times}"
+
+    def to_json(self):
+        return asdict(self)
+
+    @classmethod
+    def from_json(cls, data):
+        sections = [
+            (title, [(region, pixels, [Deviation(**each) for each in found]) for region, pixels, found in rows])
+            for title, rows in data["sections"]
+        ]
+        return cls(sections, data["times"], data["date"])
 
 
 def tables(sections):
@@ -65,10 +90,10 @@ PAGE = """\
 # Against Mitsuba 3
 
 An outside check: the same scenes rendered by spectrel and by [Mitsuba 3](https://mitsuba-renderer.org), a renderer that shares
-no line of code with it. This page is written by `python3 benches/peers/compare.py --write`; every figure below is of that run.
+no line of code with it. This page is written by `python3 benches/peers/compare.py --write` from what its last runs found.
 
 - {spectrel}; {mitsuba}, its `path` integrator and `multijitter` sampler; {date}
-- {replicates} renders of each, each with a seed of its own; box filter, no limit on path length but roulette
+- Renders of each with seeds of their own, as many as each title says; box filter, no limit on path length but roulette
 - The scenes are the three `.toml` files here. `translate.py` turns them into Mitsuba scenes and stops at anything it does not know;
   n and k, reflectances and lights are read from `spectra/` at run time and handed over as tables, lights in W m⁻² sr⁻¹ nm⁻¹
 
@@ -105,10 +130,11 @@ each other, so of many intervals about one in twenty misses zero by chance, and 
 ## Again
 
     cargo build --release
+    python3 benches/peers/compare.py --time
     python3 benches/peers/compare.py --write
 
 Needs Python 3.11 or newer; `requirements.txt` is installed below `target/` the first time. `--pictures` writes both pictures and their
-difference there, `--samples 64 glass` is a quick look, `--time` also measures error against CPU time.
+difference there, `--samples 64 glass` is a quick look.
 """
 
 TIMES = """
@@ -121,15 +147,17 @@ whole process for spectrel, of the render alone for Mitsuba, scene loading and c
 {tables}"""
 
 
-def page(sections, replicates, times):
+def page(results):
     spectrel, mitsuba = renderers.versions()
     integral, lights = observers()
-    times = TIMES.format(samples=timing.SAMPLES, seeds=len(timing.SEEDS), tables="\n".join(times)) if times else ""
+    sections = [section for result in results for section in result.sections]
+    times = "\n".join(result.times for result in results if result.times)
+    if times:
+        times = TIMES.format(samples=timing.SAMPLES, seeds=len(timing.SEEDS), tables=times)
     return PAGE.format(
         spectrel=spectrel,
         mitsuba=mitsuba,
-        date=datetime.date.today().isoformat(),
-        replicates=replicates,
+        date=max(result.date for result in results),
         limit=LIMIT,
         summary=summary(sections),
         constant=renderers.MITSUBA_CONSTANT,

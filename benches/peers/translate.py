@@ -120,9 +120,7 @@ def scene(description, correlated=False, sampler="multijitter"):
     if "environment" in description:
         sky = only(description["environment"], "constant")["constant"]
         result["sky"] = {"type": "constant", "radiance": emission(sky)}
-    materials = {
-        name: bsdf(material, correlated) for name, material in description["materials"].items()
-    }
+    materials = {name: bsdf(material, correlated) for name, material in description["materials"].items()}
     for number, entry in enumerate(description["objects"]):
         only(entry, "name", "material", "shape", "emission")
         translated = shape(entry["shape"])
@@ -130,9 +128,7 @@ def scene(description, correlated=False, sampler="multijitter"):
             translated["emitter"] = {"type": "area", "radiance": emission(entry["emission"])}
         # A lamp without a material is black in spectrel, half grey in Mitsuba.
         translated["bsdf"] = (
-            materials[entry["material"]]
-            if "material" in entry
-            else {"type": "diffuse", "reflectance": constant(0)}
+            materials[entry["material"]] if "material" in entry else {"type": "diffuse", "reflectance": constant(0)}
         )
         translated["id"] = f"object {number}"
         result[f"object {number}"] = translated
