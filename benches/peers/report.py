@@ -53,7 +53,7 @@ def tables(sections):
 def summary(sections):
     """One line a section: how far, how often the interval holds zero, how fine it could see."""
     lines = [
-        "| scene | whole picture, Y, % | largest of a region, % | intervals that hold 0 "
+        "| scene | whole picture, Y, % | largest of a region, % | intervals within 0.001 of 0 "
         f"| surely beyond {LIMIT} % | widest interval of Y, % |",
         "|---|--:|--:|--:|--:|--:|",
     ]
@@ -112,7 +112,8 @@ them, as described below. "As they are" exchanges nothing but the constant. No f
 2. **The masking term of rough metal** (alike). Mitsuba multiplies Smith's terms for the two directions as if they were independent,
    spectrel uses the height-correlated form, which is brighter. In "alike" Mitsuba's rough conductor is wrapped in a material that
    multiplies it by (1 + Λi)(1 + Λo) / (1 + Λi + Λo), the quotient of the two; normals, Fresnel term and sampling stay Mitsuba's own.
-   The difference that this makes is rendered with and without it from equal seeds and added to the pictures of Mitsuba as it is.
+   It counts where both directions graze, as in the pixels at the edges of the spheres; a polished metal knows nothing of it.
+   The difference that it makes is rendered with and without it from equal seeds and added to the pictures of Mitsuba as it is.
 3. **The observer** (alike). Both sample wavelengths over 360–830 nm, but Mitsuba's observer is a table of 5 nm, spectrel's one of 1 nm,
    both read linearly. For lights without edges that is nothing; behind a steep reflectance it is more than the noise here. In "alike"
    spectrel is given Mitsuba's table (`--library`). With both tables as they are, spectrel / Mitsuba − 1 by quadrature:
