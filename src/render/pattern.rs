@@ -53,8 +53,11 @@ impl Kernel<'_> {
         self.scene.world.uv(hit).unwrap_or_default()
     }
 
+    /// As differences from one texel, so that equal ones give their value to the bit.
     #[inline]
     fn value(&self, texels: &Texels<f32>, hit: &Hit) -> f32 {
-        texels.around(self.uv(hit)).iter().map(|(value, weight)| value * weight).sum()
+        let around = texels.around(self.uv(hit));
+        let (first, _) = around[0];
+        first + around.iter().map(|(value, weight)| (value - first) * weight).sum::<f32>()
     }
 }

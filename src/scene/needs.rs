@@ -37,6 +37,7 @@ impl Needs {
             stones(scene),
             absorption(scene),
             immersion(scene),
+            contact(scene),
             microfacets(scene),
             textures(scene),
             light_sampling(scene),
@@ -150,6 +151,22 @@ fn immersion(scene: &Scene) -> Decision {
     match outside.name.as_str() {
         "vacuum" => decision("outside medium", false, "n = 1 around everything"),
         name => decision("outside medium", true, format!("everything is in {name}")),
+    }
+}
+
+/// Solids that may touch or overlap, in the order in which they fill the space.
+fn contact(scene: &Scene) -> Decision {
+    let mut touching: Vec<&Object> = scene.objects.iter().filter(|object| object.touches).collect();
+    touching.sort_by_key(|object| std::cmp::Reverse(object.rank));
+    match touching.iter().map(|object| object.name.as_str()).collect::<Vec<_>>() {
+        names if names.is_empty() => decision("media in contact", false, "no two clear solids can touch or overlap"),
+        names => {
+            let order = format!(
+                "each boundary is asked for another one at its place; where they overlap, first comes first: {}",
+                names.join(", ")
+            );
+            decision("media in contact", true, order)
+        }
     }
 }
 

@@ -113,6 +113,13 @@ fn pictures_of_the_wrong_kind_are_refused_where_they_are_named() {
 }
 
 #[test]
+fn a_mesh_without_texture_coordinates_takes_no_picture() {
+    let scene = textured("diffuse]\nreflectance = { image = \"a.hdr\" }", "§shape.mesh = { file = \"t.obj\" }");
+    let files = &[("a.hdr", GREY), ("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")];
+    refused_at_mark(&scene, files, &["object 1 has no texture coordinates", "meshes whose file brings them"]);
+}
+
+#[test]
 fn a_shape_without_texture_coordinates_takes_no_picture() {
     for shape in ["§shape.box = { size = [1, 1, 1] }", "§shape.brilliant = { diameter = 1 }"] {
         for keys in

@@ -71,6 +71,24 @@ fn flat_pictures_stand_upright_on_flat_shapes() {
 }
 
 #[test]
+fn meshes_wear_pictures_by_the_coordinates_of_their_file() {
+    let (_folder, path) = folder();
+    quarters(&path("a.exr"));
+    // A table whose file turns the picture by a quarter: u runs along +y, v along −x.
+    let table = "v -2 -1 0\nv 2 -1 0\nv 2 1 0\nv -2 1 0\nvt 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3 4/4\n";
+    std::fs::write(path("table.obj"), table).expect("a file");
+    let material = format!("diffuse.reflectance = {{ image = {:?}, wrap = \"clamp\" }}", path("a.exr"));
+    let mesh = format!("mesh = {{ file = {:?} }}", path("table.obj"));
+    // The picture's upper left is at −x, −y.
+    for (x, y, expected) in
+        [(-1.9, -0.9, 20.0), (-1.9, 0.9, 40.0), (1.9, -0.9, 60.0), (1.9, 0.9, 80.0), (0.0, 0.0, 50.0)]
+    {
+        let found = seen(&furnace([x, y, 5.0], [x, y, 0.0], &material, &mesh))[1];
+        assert!((found / expected - 1.0).abs() < 4e-3, "{x} {y}: {found}, expected {expected}");
+    }
+}
+
+#[test]
 fn spheres_wear_pictures_around_their_axis() {
     let (_folder, path) = folder();
     // Four columns around, each with its own grey, darker below.
