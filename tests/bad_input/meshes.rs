@@ -11,7 +11,8 @@ fn mesh(keys: &str) -> String {
 
 #[test]
 fn meshes_that_are_missing_or_broken() {
-    let cases: &[(&str, &[(&str, &str)], &[&str])] = &[
+    type Files<'a> = &'a [(&'a str, &'a str)];
+    let cases: &[(&str, Files, &[&str])] = &[
         ("{ file = §\"none.obj\" }", &[], &["none.obj"]),
         ("{ file = §\"ring.step\" }", &[("ring.step", "ISO-10303")], &["obj", "ply", "stl", "gltf", "glb"]),
         ("{ file = §\"a.obj\" }", &[("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n")], &["no face"]),
