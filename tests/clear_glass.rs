@@ -137,6 +137,40 @@ fn heaps_of_clear_solids_are_invisible() {
     }
 }
 
+/// Solids in one another whose faces coincide and look the same way: light that has crossed both must not cross one again.
+#[test]
+fn solids_with_faces_in_common_are_invisible() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    let block = "shape.box = { size = [1, 1, 1] }";
+    let in_corner = |share: usize| {
+        let at = |axis: usize| if axis < share { 0.25 } else { 0.0 };
+        format!("shape.box = {{ size = [0.5, 0.5, 0.5], center = [{}, {}, {}] }}", at(0), at(1), at(2))
+    };
+    let cube = obj(folder, "cube", &cuboid([0.0; 3], [1.0; 3]));
+    let ball = ply(folder, "ball", &meshes::icosphere(2));
+    let turned = "transform.rotate = [25, -10, 40]";
+    let pairs: Vec<(&str, String, String)> = vec![
+        ("one face", block.into(), in_corner(1)),
+        ("three faces", block.into(), in_corner(3)),
+        ("a filling", block.into(), "shape.box = { size = [1, 1, 0.5], center = [0, 0, -0.25] }".into()),
+        ("two boxes alike", block.into(), block.into()),
+        ("two balls alike", "shape.sphere = { radius = 0.7 }".into(), "shape.sphere = { radius = 0.7 }".into()),
+        ("two mesh cubes alike", cube.clone(), cube.clone()),
+        ("a mesh cube and a box", cube, block.into()),
+        ("two mesh balls alike", ball.clone(), ball),
+    ];
+    for (name, first, second) in pairs {
+        for second_material in ["water", "glass"] {
+            let objects = [("glass", &first), (second_material, &second)]
+                .map(|(material, shape)| format!("[[objects]]\nmaterial = \"{material}\"\n{shape}\n{turned}\n"));
+            invisible(&format!("{name}, glass and {second_material}"), &furnace(CAMERA, 2.4, &objects.concat()));
+        }
+    }
+    let three = "[[objects]]\nmaterial = \"glass\"\nshape.sphere = { radius = 0.7 }\ncopies = [{}, {}, {}]\n";
+    invisible("three balls alike", &furnace(CAMERA, 2.4, three));
+}
+
 /// From within, along one line of sight.
 #[test]
 fn a_furnace_is_n_squared_brighter_from_within_glass() {

@@ -58,21 +58,29 @@ impl World {
     ///
     /// Among surfaces at the same distance the first shape wins, whatever the tree looks like. A ray that departs into a
     /// solid finds the solid's exit before whatever touches it there.
+    #[inline]
     pub fn closest(&self, ray: &Ray, t_max: f32) -> Option<Hit> {
+        self.closest_beyond(ray, &[], t_max)
+    }
+
+    /// The same for a ray that has left more than one surface at its origin: those of solids whose faces coincide there.
+    #[inline]
+    pub fn closest_beyond(&self, ray: &Ray, also: &[Departure], t_max: f32) -> Option<Hit> {
         let probe = self.probe(ray);
         let mut limit = t_max.min(f32::MAX);
         let mut best: Option<Nearest> = None;
         let departed = departed(ray);
-        if let Some((shape, leaving)) = leaving(ray)
-            && let Some(again) = self.shape(shape).and_then(|own| own.again(&leaving, limit))
-            && again.t <= limit
-        {
-            best = Some(Nearest { crossing: again, shape: shape.0 });
-            // Strictly less: what touches the solid at its exit comes after it.
-            limit = if again.side == Side::Inside { again.t - again.slack } else { again.t };
+        for (shape, leaving) in all_left(ray, also) {
+            if let Some(again) = self.shape(shape).and_then(|own| own.again(&leaving, limit))
+                && again.t <= limit
+            {
+                best = Some(Nearest { crossing: again, shape: shape.0 });
+                // Strictly less: what touches the solid at its exit comes after it.
+                limit = if again.side == Side::Inside { again.t - again.slack } else { again.t };
+            }
         }
         self.visit(ray, &probe, limit, |shape, limit| {
-            if shape == departed {
+            if shape == departed || is_among(also, shape) {
                 return limit;
             }
             let Some(crossing) = self.shapes[shape as usize].meet(&probe, limit) else { return limit };
@@ -104,7 +112,7 @@ impl World {
             return false;
         }
         let but = |shape: u32| target.filter(|target| target.shape.0 == shape).map(|target| target.facet);
-        if let Some((shape, leaving)) = leaving(ray)
+        if let Some((shape, leaving)) = leaving(ray, ray.departs)
             && self.shape(shape).is_some_and(|own| own.hides_again(&leaving, limit, but(shape.0)))
         {
             return true;
@@ -128,11 +136,10 @@ impl World {
     ///
     /// It is looked for along the ray that has found the first one. A ray from there would have to judge anew which surface is
     /// still to come: one that this ray meets later by a hair, that one could take for passed, and then nobody crosses it.
-    pub fn beside(&self, ray: &Ray, met: &[Hit]) -> Option<Hit> {
+    /// `also` as in [`Self::closest_beyond`].
+    pub fn beside(&self, ray: &Ray, also: &[Departure], met: &[Hit]) -> Option<Hit> {
         let far = met.last()?;
-        let coordinates = 2.0 * sum_abs(far.point) + self.extent(far.shape);
-        let cosine = far.normal.dot(ray.direction).abs().max(0.01);
-        let within = |extent: f32| far.t + 16.0 * f32::EPSILON * (coordinates + extent) / cosine;
+        let within = |extent: f32| far.t + self.rounding(ray, far, extent);
         let probe = self.probe(ray);
         let departed = departed(ray);
         let mut best: Option<Nearest> = None;
@@ -146,14 +153,12 @@ impl World {
             }
         };
         self.visit(ray, &probe, within(self.largest), |shape, limit| {
-            if shape != departed && met.iter().all(|hit| hit.shape.0 != shape) {
+            if shape != departed && !is_among(also, shape) && met.iter().all(|hit| hit.shape.0 != shape) {
                 candidate(shape, self.shapes[shape as usize].meet(&probe, limit));
             }
             limit
         });
-        if let Some((shape, leaving)) = leaving(ray)
-            && met.iter().all(|hit| hit.shape != shape)
-        {
+        for (shape, leaving) in all_left(ray, also).filter(|(shape, _)| met.iter().all(|hit| hit.shape != *shape)) {
             candidate(shape.0, self.shape(shape).and_then(|own| own.again(&leaving, within(own.extent()))));
         }
         // Two solids of one mesh may touch each other.
@@ -164,6 +169,17 @@ impl World {
             candidate(far.shape.0, again.map(|crossing| Crossing { t: far.t + crossing.t, ..crossing }));
         }
         best.map(|nearest| self.hit(ray, nearest))
+    }
+
+    /// Whether a hit is at the origin of its ray, up to rounding.
+    pub fn is_at_origin(&self, ray: &Ray, hit: &Hit) -> bool {
+        hit.t <= self.rounding(ray, hit, self.extent(hit.shape))
+    }
+
+    /// How far along a ray rounding can move a hit against that with a surface of an extent.
+    fn rounding(&self, ray: &Ray, hit: &Hit, extent: f32) -> f32 {
+        let coordinates = 2.0 * sum_abs(hit.point) + self.extent(hit.shape);
+        16.0 * f32::EPSILON * (coordinates + extent) / hit.normal.dot(ray.direction).abs().max(0.01)
     }
 
     fn extent(&self, shape: ShapeId) -> f32 {
@@ -220,10 +236,20 @@ impl World {
     }
 }
 
-/// The shape that the ray leaves, and how.
+/// The shapes that a ray leaves, and how.
 #[inline]
-fn leaving(ray: &Ray) -> Option<(ShapeId, Leaving)> {
-    match ray.departs {
+fn all_left(ray: &Ray, also: &[Departure]) -> impl Iterator<Item = (ShapeId, Leaving)> {
+    leaving(ray, ray.departs).into_iter().chain(also.iter().filter_map(|&departs| leaving(ray, departs)))
+}
+
+#[inline]
+fn is_among(departures: &[Departure], shape: u32) -> bool {
+    departures.iter().any(|departs| matches!(departs, Departure::Surface { shape: left, .. } if left.0 == shape))
+}
+
+#[inline]
+fn leaving(ray: &Ray, departs: Departure) -> Option<(ShapeId, Leaving)> {
+    match departs {
         Departure::Free => None,
         Departure::Surface { shape, facet, side } => {
             Some((shape, Leaving { origin: ray.origin, direction: ray.direction, facet, side }))

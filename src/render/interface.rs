@@ -29,10 +29,10 @@ struct Boundary {
 impl Kernel<'_> {
     /// Boundaries that coincide are one: there is no air between glasses that touch. Goes on through all that are met at once.
     #[inline(never)]
-    fn contact(&self, mut boundary: Boundary, ray: &Ray) -> Boundary {
+    fn contact(&self, mut boundary: Boundary, ray: &Ray, also: &[Departure]) -> Boundary {
         let mut met = [boundary.far; MOST];
         for count in 1..MOST {
-            let Some(next) = self.scene.world.beside(ray, &met[..count]) else { break };
+            let Some(next) = self.scene.world.beside(ray, also, &met[..count]) else { break };
             let Surface::Dielectric(interface) = self.surface(&next) else { break };
             let rank = self.scene.object(next.shape).rank;
             let entering = next.side == Side::Outside;
@@ -47,13 +47,35 @@ impl Kernel<'_> {
         boundary
     }
 
+    /// What a path meets next. Where faces coincide the surface just crossed knows itself, but not that the other one was crossed
+    /// with it: crossing that again changes nothing, so it is noted in `also` and left behind.
+    #[inline]
+    pub fn next<const N: usize>(&self, path: &Path<N>, also: &mut Vec<Departure>) -> Option<Hit> {
+        let hit = self.scene.world.closest(&path.ray, f32::INFINITY)?;
+        if self.scene.object(hit.shape).touches { self.next_beyond(path, also, hit) } else { Some(hit) }
+    }
+
+    #[inline(never)]
+    fn next_beyond<const N: usize>(&self, path: &Path<N>, also: &mut Vec<Departure>, mut hit: Hit) -> Option<Hit> {
+        while also.len() < MOST && self.scene.world.is_at_origin(&path.ray, &hit) {
+            let Surface::Dielectric(interface) = self.surface(&hit) else { break };
+            let solid = Filling { rank: self.scene.object(hit.shape).rank, medium: interface.medium };
+            if path.media.across(solid, hit.side == Side::Outside) != path.media {
+                break;
+            }
+            also.push(Departure::Surface { shape: hit.shape, facet: hit.facet, side: hit.side.opposite() });
+            hit = self.scene.world.closest_beyond(&path.ray, also, f32::INFINITY)?;
+        }
+        Some(hit)
+    }
+
     /// A dielectric boundary: one of reflection and refraction is followed, all lanes alike.
     #[inline]
     pub fn interface<const N: usize>(
         &self,
         interface: &Interface,
         path: &mut Path<N>,
-        hit: &Hit,
+        (hit, also): (&Hit, &[Departure]),
         sampler: &mut Sampler,
         radiance: &mut Lanes<N>,
     ) -> Outcome {
@@ -62,7 +84,7 @@ impl Kernel<'_> {
         let media = path.media.across(Filling { rank: object.rank, medium: interface.medium }, entering);
         let boundary = Boundary { interface: *interface, rank: object.rank, media, far: *hit };
         let Boundary { interface, media, far, .. } = match object.touches {
-            true => self.contact(boundary, &path.ray),
+            true => self.contact(boundary, &path.ray, also),
             false => boundary,
         };
         let (from, to) = (path.media.current(), media.current());

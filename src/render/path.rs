@@ -83,7 +83,8 @@ impl Kernel<'_> {
     pub fn radiance<const N: usize>(&self, mut path: Path<N>, sampler: &mut Sampler) -> Lanes<N> {
         let mut radiance = Lanes::ZERO;
         loop {
-            let Some(hit) = self.scene.world.closest(&path.ray, f32::INFINITY) else {
+            let mut also = Vec::new();
+            let Some(hit) = self.next(&path, &mut also) else {
                 radiance += self.environment(&path);
                 break;
             };
@@ -106,7 +107,9 @@ impl Kernel<'_> {
                     let bsdf = Bsdf::Conductor { fresnel: model.at(&outside, &n, &k), alpha };
                     self.scatter(&bsdf, &mut path, &hit, sampler, &mut radiance)
                 }
-                Surface::Dielectric(interface) => self.interface(&interface, &mut path, &hit, sampler, &mut radiance),
+                Surface::Dielectric(interface) => {
+                    self.interface(&interface, &mut path, (&hit, &also), sampler, &mut radiance)
+                }
             };
             if matches!(outcome, Outcome::Ended) || !path.survives(sampler) {
                 break;
