@@ -152,6 +152,62 @@ fn overlapping_media_are_told_and_ranked() {
     assert_eq!(rank(&said), [3, 1, 2]);
 }
 
+#[test]
+fn the_material_around_everything_is_there_for_objects_too() {
+    let scene = |own: &str, outside: &str, object: &str| {
+        let text = format!(
+            "outside = \"{outside}\"\n{HEAD}{CAMERA}{own}\n[[objects]]\nmaterial = \"{object}\"\nshape.sphere = {{ radius = 1 }}\n"
+        );
+        common::scene(&text, &Overrides::default())
+    };
+    let surface = |scene: &Scene| scene.surfaces[scene.objects[0].surface as usize];
+    let own = "[materials.w.dielectric]\nior = 1.9\n";
+    let same = scene(own, "w", "w");
+    let Surface::Dielectric(interface) = surface(&same) else { panic!("w is no metal") };
+    assert_eq!(interface.medium, spectrel::scene::MediumId::OUTSIDE, "in w a ball of w is not there");
+    let empty = common::scene(&[HEAD, CAMERA].concat(), &Overrides::default());
+    let [with, without] = [&same, &empty].map(|scene| common::mean(&common::film(scene))[1]);
+    assert!((with / without - 1.0).abs() < 1e-5, "{with} {without}");
+    let other = scene(&format!("{own}[materials.v.dielectric]\nior = 1.5\n"), "w", "v");
+    assert!(matches!(surface(&other), Surface::Dielectric(interface) if interface.medium.0 != 0));
+    assert!(same.warnings.is_empty() && other.warnings.is_empty());
+}
+
+#[test]
+fn a_lamp_from_a_file_shines_whatever_its_file_calls_it() {
+    let lamp = "[[objects]]\nname = \"lamp\"\nshape.mesh = { file = \"cubes.obj\", part = \"Left\" }\n\
+        emission = { spectrum = \"D65\", luminance = 300 }\n";
+    let scene = resolved(lamp);
+    assert_eq!(met(&scene, -2.0, 0.3), pair("lamp", "light"));
+    assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
+
+    let folder = tempfile::tempdir().unwrap();
+    let inwards: String = cubes()
+        .lines()
+        .map(|line| match line.split_whitespace().collect::<Vec<_>>()[..] {
+            ["f", a, b, c, d] => format!("f {d} {c} {b} {a}\n"),
+            _ => format!("{line}\n"),
+        })
+        .collect();
+    fs::write(folder.path().join("cubes.obj"), inwards).unwrap();
+    let dome = |more: &str| {
+        let scene = [HEAD, CAMERA, &lamp.replace("luminance = 300", &format!("luminance = 300{more}"))].concat();
+        resolved_in(folder.path(), &scene).unwrap()
+    };
+    assert!(dome("").warnings[0].contains("its triangles face inwards"), "{:?}", dome("").warnings);
+    assert!(dome(", two_sided = true").warnings.is_empty());
+}
+
+#[test]
+fn lights_of_which_nothing_arrives_are_told() {
+    let point = "[[points]]\nposition = [0, 0, 9]\nspectrum = \"A\"\nluminous_flux = 4\n";
+    let ball = |material: &str| format!("[[objects]]\nmaterial = \"{material}\"\nshape.sphere = {{ radius = 1 }}\n");
+    let text = [HEAD, CAMERA, point, &ball("gold")].concat();
+    assert!(common::scene(&text, &Overrides::default()).warnings[0].contains("point lights light nothing"));
+    let text = ["outside = \"water\"\n", HEAD, CAMERA, &ball("gold")].concat();
+    assert!(common::scene(&text, &Overrides::default()).warnings[0].contains("infinitely far away"));
+}
+
 /// A glTF file with one triangle and a camera that looks along +y from (1, −5, 2) of our axes.
 fn filmed() -> (String, Vec<u8>) {
     let corners = [[0.0f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
@@ -218,4 +274,29 @@ fn gold_cubes_are_gold_cubes() {
         .surfaces[0],
         Surface::Conductor { .. }
     ));
+}
+
+/// Smooth normals keep a metal's light, but for what they throw below the triangles; of a white surface the softened terminator takes a
+/// little, as its head says.
+#[test]
+fn smooth_metal_is_invisible_in_a_furnace() {
+    let look = |material: &str, crease: u32| {
+        let text = format!(
+            "render = {{ width = 60, height = 40, samples = 64 }}
+            camera = {{ position = [0, -60, 30], look_at = [0, 0, 0], fov = 24 }}
+            environment.constant = {{ spectrum = \"E\", luminance = 100 }}
+            materials.m.{material}
+            [[objects]]\nmaterial = \"m\"
+            shape.mesh = {{ file = \"meshes/ring.obj\", crease_angle = {crease} }}\ntransform.rotate = [20, 0, 0]\n"
+        );
+        let scene = resolve(Text::new("scenes/furnace.toml", text), &common::library(), &Overrides::default());
+        common::mean(&common::film(&scene.unwrap()))[1]
+    };
+    let mirror = "conductor = { ior = { n = 1e-6, k = 1 } }";
+    for (crease, tolerance) in [(0, 1e-4), (50, 3e-4)] {
+        let found = look(mirror, crease);
+        assert!((found / 100.0 - 1.0).abs() < tolerance, "crease angle {crease}: {found}");
+    }
+    let white = look("diffuse.reflectance = 1", 50);
+    assert!((99.3..=100.01).contains(&white), "{white}");
 }

@@ -52,9 +52,24 @@ impl Watched {
     fn add(&mut self, text: &Text) {
         let named = text.content.split(['"', '\'', '\n']).filter(|word| !word.is_empty());
         let paths = std::iter::once(text.path.clone()).chain(named.map(|word| text.base().join(word)));
-        for path in paths.filter(|path| path.is_file()) {
-            let now = stamp(&path);
-            self.files.entry(path).or_insert(now);
+        for path in paths {
+            self.watch(path);
+        }
+    }
+
+    /// A file, and what a glTF file names in turn. What is not there yet may come, if its name has an extension.
+    fn watch(&mut self, path: PathBuf) {
+        if !(path.is_file() || path.extension().is_some_and(|extension| extension.len() <= 5)) || path.is_dir() {
+            return;
+        }
+        if self.files.contains_key(&path) {
+            return;
+        }
+        self.files.insert(path.clone(), stamp(&path));
+        if path.extension().is_some_and(|extension| extension == "gltf")
+            && let Ok(content) = std::fs::read_to_string(&path)
+        {
+            self.add(&Text::new(&path, content));
         }
     }
 
@@ -80,7 +95,8 @@ pub fn run(
         while_watching(&watched, interrupt, || render(&read)).unwrap_or_else(show::error);
         let watched = watched.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
         if !quiet && !interrupt.stopped() {
-            show::note(format_args!("watching {}; Ctrl-C ends", counted(watched.files.len())));
+            let there = watched.files.values().flatten().count();
+            show::note(format_args!("watching {}; Ctrl-C ends", counted(there)));
         }
         let Some(changed) = wait(&watched, interrupt) else { return };
         settle(scene);
@@ -154,12 +170,22 @@ mod tests {
         fs::write(path("a.toml"), "ior = \"data/n.csv\"\nmesh = { file = 'stone.obj' }\nmaterial = \"gold\"\n[[broken")
             .unwrap();
         let watched = Watched::new(&path("a.toml"));
-        assert_eq!(watched.files.len(), 3, "{watched:?}");
+        assert_eq!(watched.files.values().flatten().count(), 3, "{watched:?}");
         assert_eq!(watched.changed(), None);
         fs::write(path("data/n.csv"), "longer").unwrap();
         assert_eq!(watched.changed(), Some(path("data/n.csv").as_path()));
         assert_eq!(Watched::new(&path("none.toml")).changed(), None, "what is not there has not changed");
         fs::remove_file(path("a.toml")).unwrap();
         assert_eq!(watched.changed(), Some(path("a.toml").as_path()));
+        fs::write(path("b.toml"), "file = \"b.gltf\"\n'later.csv'\nprice = \"0.5\"").unwrap();
+        fs::write(path("b.gltf"), "{ \"buffers\": [{ \"uri\": \"b.bin\" }] }").unwrap();
+        fs::write(path("b.bin"), "").unwrap();
+        let watched = Watched::new(&path("b.toml"));
+        assert_eq!(watched.changed(), None);
+        fs::write(path("later.csv"), "").unwrap();
+        assert_eq!(watched.changed(), Some(path("later.csv").as_path()), "what was missing has come");
+        fs::remove_file(path("later.csv")).unwrap();
+        fs::write(path("b.bin"), "longer").unwrap();
+        assert_eq!(watched.changed(), Some(path("b.bin").as_path()), "buffers of a glTF file");
     }
 }

@@ -5,6 +5,14 @@
 
 use glam::{DVec3, Vec3};
 
+/// Half of the narrowest cone, radians: 0.02° wide. Directions in single precision tell narrower ones from nothing.
+pub const NARROWEST: f64 = 1.745e-4;
+
+fn versine(angle: f64) -> f64 {
+    let sine = libm::sin(angle / 2.0);
+    2.0 * sine * sine
+}
+
 /// Where a point light stands and whereto it shines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
@@ -14,7 +22,8 @@ pub struct Point {
     cone: Option<Cone>,
 }
 
-/// Full light up to `full`, none beyond `none`, both cosines against the axis; between them it fades as 3t² − 2t³.
+/// Full light up to `full`, none beyond `none`; between them it fades as 3t² − 2t³. Both are versines of angles against the axis,
+/// 1 − cos, which keep their digits where cones are narrow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cone {
     axis: Vec3,
@@ -23,27 +32,28 @@ pub struct Cone {
 }
 
 impl Cone {
-    /// Angles in radians from the axis, 0 ≤ `full` ≤ `none` ≤ π; `None` for others and without a direction.
+    /// Angles in radians from the axis, 0 ≤ `full` ≤ `none` ≤ π; `None` for others, below [`NARROWEST`] and without a direction.
     pub fn new(axis: DVec3, full: f64, none: f64) -> Option<Self> {
         let axis = axis.try_normalize()?.as_vec3();
-        let possible = full >= 0.0 && full <= none && none <= std::f64::consts::PI && none > 0.0;
-        possible.then(|| Self { axis, full: libm::cos(full) as f32, none: libm::cos(none) as f32 })
+        let possible = full >= 0.0 && full <= none && (NARROWEST..=std::f64::consts::PI).contains(&none);
+        possible.then(|| Self { axis, full: versine(full) as f32, none: versine(none) as f32 })
     }
 
     /// ∫ of what it lets through over all directions, sr. In the cosine the fade is symmetric, so its mean is a half.
     pub fn solid_angle(&self) -> f64 {
         let [full, none] = [self.full, self.none].map(f64::from);
-        std::f64::consts::TAU * ((1.0 - full) + (full - none) / 2.0)
+        std::f64::consts::TAU * (full + none) / 2.0
     }
 
     /// Share of the intensity in a direction away from the light.
     #[inline]
     fn share(&self, direction: Vec3) -> f32 {
-        let cosine = self.axis.dot(direction);
-        if cosine >= self.full {
+        // From the difference of two unit vectors, which has no cancellation.
+        let versine = 0.5 * (direction - self.axis).length_squared();
+        if versine <= self.full {
             return 1.0;
         }
-        let t = ((cosine - self.none) / (self.full - self.none)).clamp(0.0, 1.0);
+        let t = ((self.none - versine) / (self.none - self.full)).clamp(0.0, 1.0);
         t * t * (3.0 - 2.0 * t)
     }
 }
@@ -93,6 +103,19 @@ mod tests {
                 / f64::from(n)
                 * std::f64::consts::TAU;
             assert!((integral / cone.solid_angle() - 1.0).abs() < 2e-3, "{full} {none}: {integral}");
+        }
+    }
+
+    /// 0.02° wide: on its rim's plane r² = 2 · versine, and the share of a disk of directions is what the solid angle says.
+    #[test]
+    fn narrow_cones_keep_their_digits() {
+        for none in [NARROWEST, 1e-3, 1e-2] {
+            let cone = Cone::new(DVec3::new(0.3, -0.2, -1.0), none, none).unwrap();
+            let expected = std::f64::consts::PI * none * none * (1.0 - none * none / 12.0);
+            assert!((cone.solid_angle() / expected - 1.0).abs() < 1e-6, "{none}");
+            let across = cone.axis.any_orthonormal_vector();
+            let at = |angle: f64| (cone.axis.as_dvec3() * angle.cos() + across.as_dvec3() * angle.sin()).as_vec3();
+            assert!(cone.share(at(0.99 * none)) == 1.0 && cone.share(at(1.01 * none)) == 0.0, "{none}");
         }
     }
 

@@ -28,13 +28,17 @@ pub fn weight(light: &LightSample, other: f32) -> f32 {
 /// edge where the triangle turns away before the normal does.
 ///
 /// Source: M. J.-Y. Chiang, Y. K. Li, B. Burley, "Taming the Shadow Terminator", SIGGRAPH 2019 Talks: with
-/// G = (ωg·ωi) / ((ωs·ωi) (ωg·ωs)) below 1, the factor −G³ + G² + G, which is 1 with slope 0 at G = 1.
+/// G = (ωg·ωi) / ((ωs·ωi) (ωg·ωs)) below 1, the factor −G³ + G² + G, which is 1 with slope 0 at G = 1. It costs light: a white ball of
+/// 48 × 24 facets keeps 99.4 % in a furnace, one of 12 × 6 95.6 %. Metals show no such edge and are only cut below the triangle.
 #[inline]
-fn terminator(hit: &Hit, shading: Vec3, wi: Vec3) -> f32 {
+fn terminator<const N: usize>(bsdf: &Bsdf<N>, hit: &Hit, shading: Vec3, wi: Vec3) -> f32 {
     if hit.shading == hit.normal {
         return 1.0;
     }
     let normal = hit.outward();
+    if !matches!(bsdf, Bsdf::Diffuse { .. }) {
+        return if normal.dot(wi) > 0.0 { 1.0 } else { 0.0 };
+    }
     let ratio = normal.dot(wi) / (shading.dot(wi) * normal.dot(shading));
     let g = if ratio > 0.0 { ratio.min(1.0) } else { 0.0 };
     g * (1.0 + g * (1.0 - g))
@@ -58,7 +62,7 @@ impl Kernel<'_> {
         }
         let Some(sample) = bsdf.sample(wo, sampler.uniform_2d()) else { return Outcome::Ended };
         let direction = frame.to_world(sample.wi);
-        path.throughput *= sample.weight * terminator(hit, frame.z, direction);
+        path.throughput *= sample.weight * terminator(bsdf, hit, frame.z, direction);
         path.pdf = if sample.delta { f32::INFINITY } else { sample.pdf };
         path.ray = Ray::leaving(hit, hit.side, direction);
         Outcome::GoesOn
@@ -87,7 +91,7 @@ impl Kernel<'_> {
             return Lanes::ZERO;
         }
         let arriving = self.arriving(&light, hit, hit.side, path.media.current(), path.offset);
-        let seen = terminator(hit, frame.z, light.direction);
+        let seen = terminator(bsdf, hit, frame.z, light.direction);
         value.f_cos * arriving * (seen * weight(&light, value.pdf))
     }
 
@@ -101,6 +105,8 @@ impl Kernel<'_> {
         medium: MediumId,
         offset: u32,
     ) -> Lanes<N> {
+        // What comes from infinity is outside of all solids, as it is for a ray that escapes.
+        let medium = if light.distance == f32::INFINITY { MediumId::OUTSIDE } else { medium };
         let shadow = Ray::leaving(hit, side, light.direction);
         if self.scene.world.occluded(&shadow, light.distance, light.target) {
             return Lanes::ZERO;

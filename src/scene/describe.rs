@@ -203,8 +203,8 @@ pub struct SunLight {
     pub irradiance: Option<Number>,
 }
 
-/// A light without size at a point, with one of `luminous_intensity` and `luminous_flux`. Smooth mirrors and glass do not show it: a
-/// small sphere that shines is seen everywhere. Needs `meters_per_unit`.
+/// A light without size at a point, with one of `luminous_intensity` and `luminous_flux`. Smooth mirrors and glass do not show it, and
+/// nothing is lit by it through glass: a small sphere that shines is seen everywhere. Needs `meters_per_unit`.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PointLight {

@@ -50,6 +50,7 @@ fn plain_expected(expected: &str) -> &str {
     match expected {
         "f64" => "a number",
         "u32" => "a whole number from 0 to 4294967295",
+        "i32" => "a whole number",
         "u64" => "a whole number, not negative",
         "a string" => "a text in quotes",
         "a boolean" => "true or false",

@@ -14,7 +14,8 @@ pub enum Wrap {
     Clamp,
 }
 
-/// Texels, rows from the top, and how they lie on a surface: `scale` pictures beside and above each other per unit of u and v.
+/// Texels, rows from the top, and how they lie on a surface: `scale` pictures beside and above each other per unit of u and v, the first one's
+/// lower left corner at u = v = 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texels<T> {
     size: [u32; 2],
@@ -44,7 +45,7 @@ impl<T: Copy> Texels<T> {
     pub fn around(&self, uv: Vec2) -> [(T, f32); 4] {
         let [width, height] = self.size;
         let ([left, right], x) = self.neighbours(uv.x * self.scale.x, width);
-        let ([top, bottom], y) = self.neighbours((1.0 - uv.y) * self.scale.y, height);
+        let ([top, bottom], y) = self.neighbours(1.0 - uv.y * self.scale.y, height);
         let texel = |row: u32, column: u32| self.texels[row as usize * width as usize + column as usize];
         [
             (texel(top, left), (1.0 - x) * (1.0 - y)),

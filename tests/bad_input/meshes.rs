@@ -34,7 +34,7 @@ fn meshes_that_are_missing_or_broken() {
 fn materials_that_only_a_file_knows() {
     let scene = scene_with("[[objects]]\nshape.mesh = { file = \"t.obj\" }\n");
     let outcome = render(scene, &[("t.obj", TETRAHEDRON)], &["-q"]);
-    assert_refused(&outcome, &["Metal"]);
+    assert_refused(&outcome, &["this file calls a material `Metal`", "[replace]", "`material = "]);
     let scene = scene_with("[[objects]]\nshape.mesh = { file = \"t.obj\" }\n[replace]\n\"Metal\" = §\"golt\"\n");
     refused_at_mark(&scene, &[("t.obj", TETRAHEDRON)], &["golt", "gold"]);
 }

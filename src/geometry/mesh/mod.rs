@@ -32,6 +32,7 @@ pub struct Mesh {
     tree: Tree,
     bounds: Bounds,
     surroundings: Surroundings,
+    inside_out: bool,
     /// Shares of the area up to and with each triangle; worked out when light is first sampled.
     shares: OnceLock<Vec<f64>>,
 }
@@ -60,7 +61,8 @@ impl Mesh {
             check::point("a corner of the mesh", position)?;
         }
         let mut surroundings = Surroundings::of(&triangles);
-        if surroundings.is_closed() && surroundings.volume < 0.0 {
+        let inside_out = surroundings.is_closed() && surroundings.volume < 0.0;
+        if inside_out {
             turn_round(&mut triangles);
             surroundings.volume = -surroundings.volume;
         }
@@ -71,7 +73,7 @@ impl Mesh {
         let tree = Tree::grouped(&boxes, WIDTH as u32, |group| {
             blocks.push(Block::new(&group.iter().map(|&t| (corners(t), t)).collect::<Vec<_>>()));
         });
-        Ok(Self { triangles, blocks, tree, bounds, surroundings, shares: OnceLock::new() })
+        Ok(Self { triangles, blocks, tree, bounds, surroundings, inside_out, shares: OnceLock::new() })
     }
 
     pub fn triangles(&self) -> &Triangles {
@@ -84,6 +86,11 @@ impl Mesh {
 
     pub fn surroundings(&self) -> &Surroundings {
         &self.surroundings
+    }
+
+    /// Whether its triangles faced inwards, before they were turned round.
+    pub fn was_inside_out(&self) -> bool {
+        self.inside_out
     }
 
     pub fn is_closed(&self) -> bool {

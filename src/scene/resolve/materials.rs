@@ -15,7 +15,7 @@ use toml::Spanned;
 struct Described {
     name: String,
     text: Text,
-    material: describe::Material,
+    material: Arc<describe::Material>,
     span: Range<usize>,
     /// Where the scene asks for it.
     asked_at: Range<usize>,
@@ -52,24 +52,31 @@ impl Resolver<'_> {
             return Err(self.text.error(&name.span(), message));
         };
         self.media[0] = self.medium(&described, dielectric)?;
+        self.outside_name = Some(name.get_ref().clone());
         Ok(())
     }
 
     fn described(&mut self, name: &Spanned<String>) -> Result<Described, SceneError> {
         let wanted = name.get_ref();
-        if let Some(material) = self.own_materials.remove(wanted) {
-            let (text, span, asked_at) = (self.text.clone(), material.span(), name.span());
-            return Ok(Described { name: wanted.clone(), text, material: material.into_inner(), span, asked_at });
+        if let Some((material, span)) = self.own_materials.get(wanted).cloned() {
+            self.used_materials.insert(wanted.clone());
+            return Ok(Described {
+                name: wanted.clone(),
+                text: self.text.clone(),
+                material,
+                span,
+                asked_at: name.span(),
+            });
         }
         let found = self.library.material(wanted).map_err(|error| self.unknown_material(name, error))?;
         let text = Text::new(found.origin, found.text);
-        let material = text.parse()?;
+        let material = Arc::new(text.parse()?);
         self.sources.push(text.clone());
         Ok(Described { name: wanted.clone(), text, material, span: 0..0, asked_at: name.span() })
     }
 
     fn unknown_material(&self, name: &Spanned<String>, error: SpectrumError) -> SceneError {
-        let own = nearest(name.get_ref(), self.own_names.iter().map(String::as_str));
+        let own = nearest(name.get_ref(), self.own_materials.keys().map(String::as_str));
         let error = self.text.error(&name.span(), error);
         match own {
             Some(own) => error.help(format!("this scene has a material `{own}`")),
@@ -97,6 +104,10 @@ impl Resolver<'_> {
     }
 
     fn add_medium(&mut self, medium: Medium, described: &Described) -> Result<MediumId, SceneError> {
+        // In water, a solid of water is not there.
+        if self.outside_name.as_ref() == Some(&described.name) {
+            return Ok(MediumId::OUTSIDE);
+        }
         let Ok(id) = u16::try_from(self.media.len()) else {
             return Err(self.text.error(&described.asked_at, format!("more than {} dielectric materials", u16::MAX)));
         };

@@ -27,6 +27,7 @@ use glam::{DVec3, Vec3};
 use meshes::Meshes;
 use objects::Objects;
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 use toml::Spanned;
@@ -35,14 +36,19 @@ use toml::Spanned;
 pub fn resolve(text: Text, library: &Library, overrides: &Overrides) -> Result<Scene, SceneError> {
     let mut file: SceneFile = text.parse()?;
     let own_materials = std::mem::take(&mut file.materials);
+    let own_materials = own_materials.into_iter().map(|(name, material)| {
+        let span = material.span();
+        (name, (Arc::new(material.into_inner()), span))
+    });
     let observer_1931 = library.observer(Observer::Cie1931)?;
     let resolver = Resolver {
         text: &text,
         library,
         meters_per_unit: None,
         fresnel: overrides.fresnel.or(file.render.fresnel),
-        own_names: own_materials.keys().cloned().collect(),
-        own_materials,
+        own_materials: own_materials.collect(),
+        used_materials: BTreeSet::new(),
+        outside_name: None,
         observer_1931,
         spectra: Arena::default(),
         surfaces: Vec::new(),
@@ -65,8 +71,10 @@ struct Resolver<'a> {
     library: &'a Library,
     meters_per_unit: Option<f64>,
     fresnel: Option<FresnelModel>,
-    own_names: BTreeSet<String>,
-    own_materials: BTreeMap<String, Spanned<describe::Material>>,
+    own_materials: BTreeMap<String, (Arc<describe::Material>, Range<usize>)>,
+    used_materials: BTreeSet<String>,
+    /// The material that is around everything.
+    outside_name: Option<String>,
     observer_1931: Arc<ColorMatching>,
     spectra: Arena,
     surfaces: Vec<Surface>,
@@ -109,6 +117,7 @@ impl Resolver<'_> {
         let around_camera = self.around_camera(&view, &world, &objects)?;
         let picture = self.picture(&file.picture)?;
         let lights = Lights::new(emitters, environment, objects.len());
+        self.warn_of_lost_light(!file.points.is_empty(), file.environment.is_some() || !file.suns.is_empty());
         self.warn_of_darkness();
         self.warn_of_unused_materials();
         self.sources.insert(0, self.text.clone());

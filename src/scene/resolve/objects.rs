@@ -98,9 +98,14 @@ impl Resolver<'_> {
     ) -> Result<(), SceneError> {
         let object = described.get_ref();
         let Piece { name, shape, material: named } = piece;
+        // What only shines is black, whatever its file calls it.
+        let named = named.filter(|_| object.emission.is_none() && material.is_none());
         let by_file = named.map(|named| Spanned::new(object.shape.span(), named));
+        let surface = match &by_file {
+            Some(named) => self.material(named).map_err(|error| self.unreplaced(error, named))?,
+            None => self.surface_of(described, material, &name)?,
+        };
         let material = material.or(by_file.as_ref());
-        let surface = self.surface_of(described, material, &name)?;
         if let Surface::Dielectric(_) = self.surfaces[surface as usize] {
             self.check_dielectric(object, &shape, &name)?;
         }
@@ -115,6 +120,19 @@ impl Resolver<'_> {
         all.objects.push(Object { name, material, surface, priority, rank, inside, touches });
         all.shapes.push(shape);
         Ok(())
+    }
+
+    /// A material that only a mesh file names, and that nobody knows.
+    fn unreplaced(&self, error: SceneError, named: &Spanned<String>) -> SceneError {
+        let name = named.get_ref();
+        if self.own_materials.contains_key(name) || self.library.material(name).is_ok() {
+            return error;
+        }
+        let message = format!("this file calls a material `{name}`, which neither this scene nor the library has");
+        let help = format!(
+            "add `material = \"…\"` to the object, or at the end of the scene `[replace]` with `\"{name}\" = \"…\"`"
+        );
+        self.text.error(&named.span(), message).help(help)
     }
 
     fn surface_of(
@@ -143,8 +161,17 @@ impl Resolver<'_> {
     ) -> Result<Emitter, SceneError> {
         let light = self.emission(emission, name)?;
         let two_sided = emission.two_sided;
-        if two_sided && shape.is_solid() {
-            let message = format!("{name} is a solid: it shines from its outside, `two_sided` is for flat shapes");
+        if let Shape::Mesh(placed) = shape
+            && placed.mesh().was_inside_out()
+            && !two_sided
+        {
+            self.warnings.push(format!(
+                "`{name}` is closed and its triangles face inwards: it shines from its outside all the same; `two_sided = true` makes it shine inwards, too"
+            ));
+        }
+        if two_sided && !matches!(shape, Shape::Mesh(_)) && shape.is_solid() {
+            let message =
+                format!("{name} is a solid: it shines from its outside, `two_sided` is for flat shapes and meshes");
             return Err(self.text.error(&emission.spectrum.span(), message));
         }
         let power = light.luminance * f64::from(shape.area()) * if two_sided { 2.0 } else { 1.0 };

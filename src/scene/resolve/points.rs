@@ -55,7 +55,7 @@ impl Resolver<'_> {
                 let fade = fade.as_ref().map_or(0.0, |fade| fade.get_ref().to_radians());
                 let axis = DVec3::from_array(direction.get_ref().values());
                 Cone::new(axis, none - fade, none).map(Some).ok_or_else(|| {
-                    let message = "a cone needs a direction other than zero, an angle above 0° and up to 360°, and a `fade` of at most half of it";
+                    let message = "a cone needs a direction other than zero, an angle of 0.02° to 360°, and a `fade` of at most half of it";
                     self.text.error(&angle.span(), message)
                 })
             }

@@ -1,15 +1,16 @@
 //! Where the data of a scene come from, and what a person should be warned of.
 
 use super::{Resolver, visible_nm};
-use crate::scene::DataSet;
-use crate::spectrum::{About, ColorMatching};
+use crate::scene::{DataSet, Surface};
+use crate::spectrum::{About, ColorMatching, luminance};
 
 /// A data set whose range leaves out more than this share of what the observer sees is warned of.
 const UNCOVERED: f64 = 1e-3;
 
 impl Resolver<'_> {
     pub fn warn_of_unused_materials(&mut self) {
-        let unused: Vec<_> = self.own_materials.keys().map(|name| format!("`{name}`")).collect();
+        let unused = self.own_materials.keys().filter(|name| !self.used_materials.contains(*name));
+        let unused: Vec<_> = unused.map(|name| format!("`{name}`")).collect();
         if !unused.is_empty() {
             self.warnings.push(format!("no object uses the material{} {}", plural(unused.len()), unused.join(", ")));
         }
@@ -35,8 +36,32 @@ impl Resolver<'_> {
         self.warnings.push(format!("`{file}` states chromaticities that make no colours: taken for sRGB"));
     }
 
+    /// Lights of which nothing arrives.
+    pub fn warn_of_lost_light(&mut self, points: bool, far_lights: bool) {
+        let scatters = |surface: &Surface| match surface {
+            Surface::Diffuse { .. } => true,
+            Surface::Conductor { alpha, .. } => *alpha > 0.0,
+            Surface::Dielectric(interface) => interface.is_rough(),
+            Surface::Black => false,
+        };
+        if points && !self.surfaces.iter().any(scatters) {
+            let warning =
+                "point lights light nothing here: every surface is smooth, and smooth ones do not show a point";
+            self.warnings.push(warning.into());
+        }
+        let around = &self.media[0];
+        if far_lights && around.absorption.is_some() {
+            let warning = "absorbs light and is everywhere: nothing arrives from the environment and the suns, which are infinitely far away";
+            self.warnings.push(format!("`{}` {warning}", around.name));
+        }
+    }
+
     pub fn warn_of_darkness(&mut self) {
-        if self.white_candidates.iter().all(|&(power, _)| power == 0.0) {
+        if self
+            .white_candidates
+            .iter()
+            .all(|&(power, id)| power == 0.0 && luminance(self.spectra.get(id), &self.observer_1931) == 0.0)
+        {
             self.warnings.push("nothing in this scene shines: the picture will be black".into());
         }
     }

@@ -5,6 +5,9 @@ use crate::geometry::{Shape, ShapeId, World};
 use crate::scene::{Filling, Inside, Object, Surface};
 use glam::Vec3;
 
+/// Pairs of solids that are named when they overlap; of more, how many.
+const PAIRS: usize = 3;
+
 /// Points of a shape's surface that are looked at to tell whether it overlaps another one.
 const POINTS: usize = 256;
 
@@ -36,6 +39,7 @@ impl Resolver<'_> {
 
     /// Media that contradict each other: two solids of different media fill the same space, and nothing says which is there.
     fn warn_of_overlaps(&mut self, world: &World, objects: &[Object]) {
+        let mut told = Vec::new();
         for (index, object) in objects.iter().enumerate().filter(|(_, object)| object.touches) {
             let Some(medium) = self.interface(object).map(|interface| interface.medium) else { continue };
             for (other, its) in world.near(ShapeId(index as u32)).filter(|(other, _)| other.0 as usize > index) {
@@ -43,12 +47,20 @@ impl Resolver<'_> {
                 let differs = self.interface(second).is_some_and(|interface| interface.medium != medium);
                 if differs && object.priority == second.priority && overlap(&world.shapes()[index], its) {
                     let (inner, outer) = if object.rank > second.rank { (object, second) } else { (second, object) };
-                    self.warnings.push(format!(
-                        "`{}` and `{}` overlap: where both are, `{}` fills the space, for it is the smaller one; `priority` says otherwise",
+                    let same = world.shapes()[index].volume() == its.volume();
+                    let why = if same { "comes later" } else { "is the smaller one" };
+                    told.push(format!(
+                        "`{}` and `{}` overlap: where both are, `{}` fills the space, for it {why}; `priority` says otherwise",
                         outer.name, inner.name, inner.name
                     ));
                 }
             }
+        }
+        let more = told.len().saturating_sub(PAIRS);
+        told.truncate(PAIRS);
+        self.warnings.append(&mut told);
+        if more > 0 {
+            self.warnings.push(format!("{more} more pairs of solids overlap like that"));
         }
     }
 

@@ -67,7 +67,11 @@ impl Resolver<'_> {
         let names = || cameras.iter().map(|camera| camera.name.as_str());
         let found = match named {
             None => cameras.first(),
-            Some(named) => cameras.iter().find(|camera| camera.name == *named.get_ref()),
+            Some(named) => {
+                let is = |name: Option<&String>| name == Some(named.get_ref());
+                let by_node = || cameras.iter().find(|camera| is(camera.node.as_ref()));
+                cameras.iter().find(|camera| is(Some(&camera.name))).or_else(by_node)
+            }
         };
         found.cloned().ok_or_else(|| match named {
             None => self.text.error(&file.span(), "this file has no camera"),

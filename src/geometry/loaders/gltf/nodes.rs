@@ -104,7 +104,8 @@ impl Placed<'_> {
         let DAffine3 { matrix3, translation: position } = self.transform();
         let direction = (-matrix3.z_axis).try_normalize();
         let up = direction.and_then(|direction| matrix3.y_axis.reject_from_normalized(direction).try_normalize());
-        Ok(direction.zip(up).map(|(direction, up)| FileCamera { name, position, direction, up, projection }))
+        let node = self.node.name.clone();
+        Ok(direction.zip(up).map(|(direction, up)| FileCamera { name, node, position, direction, up, projection }))
     }
 }
 
