@@ -32,6 +32,8 @@ impl Job<'_> {
         interrupt: &Interrupt,
         preview: Option<&mut Preview>,
     ) -> Result<(), SceneError> {
+        // Before the render: what its files hold by its end is not what it was made of.
+        let identity = fingerprint(self.scene);
         let layers = self.expose(interrupt, preview)?;
         if interrupt.stopped() && !interrupt.pressed() {
             return Ok(());
@@ -42,7 +44,7 @@ impl Job<'_> {
         }
         let developed = self.develop(&layers)?;
         report(&developed, self.args.quiet());
-        self.write(outputs, &layers, &developed)
+        self.write(outputs, identity, &layers, &developed)
     }
 
     /// Renders on a thread pool of its own, until it is done or interrupted.
@@ -102,8 +104,15 @@ impl Job<'_> {
     }
 
     /// Writes all pictures, or none if one of them cannot be encoded.
-    fn write(&self, paths: &[PathBuf], layers: &Layers, developed: &Developed) -> Result<(), SceneError> {
-        let files = paths.iter().map(|path| self.encode(path, layers, developed)).collect::<Result<Vec<_>, _>>()?;
+    fn write(
+        &self,
+        paths: &[PathBuf],
+        identity: u64,
+        layers: &Layers,
+        developed: &Developed,
+    ) -> Result<(), SceneError> {
+        let files =
+            paths.iter().map(|path| self.encode(path, identity, layers, developed)).collect::<Result<Vec<_>, _>>()?;
         for (path, file) in paths.iter().zip(files) {
             image::atomic::write(path, &file.bytes).map_err(SceneError::new)?;
             if file.beyond_half > 0 {
@@ -116,9 +125,16 @@ impl Job<'_> {
         Ok(())
     }
 
-    fn encode(&self, path: &Path, layers: &Layers, developed: &Developed) -> Result<Encoded, SceneError> {
+    fn encode(
+        &self,
+        path: &Path,
+        identity: u64,
+        layers: &Layers,
+        developed: &Developed,
+    ) -> Result<Encoded, SceneError> {
         let (format, options) = (image::Format::of(path).map_err(SceneError::new)?, self.args.options());
-        let metadata = self.plan.describe(path, self.scene, &metadata(self.scene, layers.film(), developed))?;
+        let metadata =
+            self.plan.describe(path, self.scene, &metadata(self.scene, identity, layers.film(), developed))?;
         let extra = match format {
             image::Format::Png => Extra::default(),
             image::Format::Exr => {
@@ -169,12 +185,12 @@ fn development(scene: &Scene) -> Develop {
 }
 
 /// What determines the picture.
-fn metadata(scene: &Scene, film: &Film, developed: &Developed) -> Metadata {
+fn metadata(scene: &Scene, identity: u64, film: &Film, developed: &Developed) -> Metadata {
     let settings = &scene.settings;
     let [x0, y0, x1, y1] = settings.crop;
     Metadata::new()
         .with("version", env!("CARGO_PKG_VERSION"))
-        .with("scene", format!("{:016x}", fingerprint(scene)))
+        .with("scene", format!("{identity:016x}"))
         .with("size", format!("{}x{}", settings.width, settings.height))
         .with("crop", format!("{x0},{y0},{x1},{y1}"))
         .with("samples", film.samples() / film.window().pixel_count())

@@ -87,7 +87,7 @@ impl Resolver<'_> {
                 return Err(self.text.error(&span, "how strong is the sun?").help(help));
             }
         };
-        let light = self.scaled(spectrum, factor, &span)?;
+        let light = self.scaled(spectrum, factor, &span, "cd/m²")?;
         // Light through the cross-section of the scene, over the π that a lamp's power lacks too.
         let power = light.luminance * facing * half_diagonal * half_diagonal;
         self.white_candidates.push((power, light.id));
@@ -99,15 +99,22 @@ impl Resolver<'_> {
         let span = emission.spectrum.span();
         let (spectrum, absolute) = self.light_spectrum(emission.spectrum.get_ref(), &span, used_by)?;
         let factor = self.strength(emission, &spectrum, absolute, &span)?;
-        self.scaled(spectrum, factor, &span)
+        self.scaled(spectrum, factor, &span, "cd/m²")
     }
 
-    pub fn scaled(&mut self, spectrum: Spectrum, factor: f64, span: &Range<usize>) -> Result<Resolved, SceneError> {
+    /// `unit`: of what the luminance counts.
+    pub fn scaled(
+        &mut self,
+        spectrum: Spectrum,
+        factor: f64,
+        span: &Range<usize>,
+        unit: &str,
+    ) -> Result<Resolved, SceneError> {
         let spectrum = spectrum.scaled(factor);
         let luminance = luminance(&spectrum, &self.observer_1931);
         if !(0.0..=BRIGHTEST).contains(&luminance) {
             let message = format!(
-                "this light has {luminance:.2e} cd/m²: it can have up to {BRIGHTEST:e} (the sun's disc has 1.6e9)"
+                "this light has {luminance:.2e} {unit}: it can have up to {BRIGHTEST:e} (the sun's disc has 1.6e9 cd/m²)"
             );
             return Err(self.text.error(span, message));
         }

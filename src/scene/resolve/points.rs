@@ -30,7 +30,7 @@ impl Resolver<'_> {
         };
         // A candela over a square metre is the unit of luminance, and the same factor leads to both.
         let factor = self.factor("luminance", candela, &spectrum, &span)?;
-        let resolved = self.scaled(spectrum, factor, &span)?;
+        let resolved = self.scaled(spectrum, factor, &span, "cd")?;
         // As a lamp's power is luminance times area, in scene units and without π.
         let power = candela * light.solid_angle() / std::f64::consts::PI / (metres * metres);
         self.white_candidates.push((power, resolved.id));
