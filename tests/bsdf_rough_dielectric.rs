@@ -270,17 +270,18 @@ proptest! {
     /// Reflection keeps f, refraction f over the square of the index beyond.
     #[test]
     fn light_paths_can_be_reversed(wo in above(1e-2), wi in above(1e-2), alpha in 0.05f32..1.0, n in 0.6f32..2.0, ratio in 1.1f32..2.0, turned in any::<bool>()) {
-        // Facets that meet light at a grazing angle are as sensitive to its rounding as the angle is small.
-        if (wo.dot(wi) - 1.0 / ratio).abs() < 0.02 {
-            return Ok(());
-        }
         let n = if turned { [n * ratio, n] } else { [n, n * ratio] };
         let (here, beyond) = (glass(alpha, [n[0]], [n[1]]), glass(alpha, [n[1]], [n[0]]));
         let f = |surface: &RoughDielectric<1>, wo: Vec3, wi: Vec3| surface.eval(wo, wi).f_cos[0] / wi.z.abs();
         let (there, back) = (f(&here, wo, wi), f(&here, wi, wo));
         prop_assert!((there - back).abs() <= 1e-4 * there, "{there} {back}");
         let (there, back) = (f(&here, wo, -wi) / (n[1] * n[1]), f(&beyond, wi, -wo) / (n[0] * n[0]));
-        prop_assert!((there - back).abs() <= 2e-4 * there + 1e-6, "{there} {back}");
+        // Near the critical angle the cosine on the thinner side is what rounding leaves of 1 − ratio² sin²: with c the smaller
+        // cosine against the facet, a rounding of the other one moves it by ratio²/c² of itself.
+        let facet = (wo * n[0] - wi * n[1]).normalize();
+        let c = facet.dot(wo).abs().min(facet.dot(wi).abs());
+        let allowed = (4e-5 + 2.0 * f32::EPSILON * ratio * ratio / (c * c)).min(1.0);
+        prop_assert!((there - back).abs() <= allowed * there.max(back) + 1e-6, "{there} {back}, allowed {allowed}");
     }
 
     #[test]
