@@ -1,5 +1,6 @@
 //! The command line: one file a command.
 
+mod fresnel;
 mod inspect;
 mod interrupt;
 mod job;
@@ -50,6 +51,8 @@ enum Command {
     Inspect(inspect::InspectArgs),
     /// List the materials, spectra or illuminants that scenes can name, with their sources
     List(list::ListArgs),
+    /// The Fresnel equations by themselves, without a scene
+    Fresnel(fresnel::FresnelArgs),
 }
 
 /// Where a scene and its data come from.
@@ -144,6 +147,7 @@ pub fn main() -> ExitCode {
         Some(Command::Render(args)) => render::run(&args),
         Some(Command::Inspect(args)) => inspect::run(&args),
         Some(Command::List(args)) => list::run(&args),
+        Some(Command::Fresnel(args)) => fresnel::run(&args),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -73,6 +73,20 @@ pub fn reflectance_and_loss<const N: usize>(
     (reflected, lost)
 }
 
+/// What the kernel makes of each polarisation, R and 1 − R apart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Polarised {
+    pub rs: f32,
+    pub rp: f32,
+    pub one_minus_rs: f32,
+    pub one_minus_rp: f32,
+}
+
+/// The polarisations of which [`reflectance`] is the mean, by the same terms: for tables, rendering needs only the mean.
+pub fn polarised(n1: f32, n2: f32, k2: f32, cos_theta_i: f32) -> Polarised {
+    Terms::new(n1, n2, k2, cos_theta_i).polarised()
+}
+
 /// The quantities of the file head for one lane, all times g, the larger of a and b: then a g is known without a division.
 struct Terms {
     /// |d|².
@@ -120,6 +134,19 @@ impl Terms {
         let both = self.sum_s * self.sum_s * (self.u + self.v) + f32::MIN_POSITIVE;
         let reflected = self.contrast * self.g * self.g * self.u / both;
         if reflected < 1.0 { reflected } else { 1.0 }
+    }
+
+    /// R_p = R_s (u − v)/(u + v), hence 1 − R_p = (u T_s + v (1 + R_s))/(u + v).
+    fn polarised(&self) -> Polarised {
+        if self.contrast == 0.0 {
+            return Polarised { rs: 0.0, rp: 0.0, one_minus_rs: 1.0, one_minus_rp: 1.0 };
+        }
+        let ratio = self.g / self.sum_s;
+        let rs = (self.contrast * ratio * ratio).min(1.0);
+        let one_minus_rs = (self.flux / self.sum_s).min(1.0);
+        let both = self.u + self.v + f32::MIN_POSITIVE;
+        let one_minus_rp = ((self.u * one_minus_rs + self.v * (1.0 + rs)) / both).min(1.0);
+        Polarised { rs, rp: rs * ((self.u - self.v) / both).max(0.0), one_minus_rs, one_minus_rp }
     }
 
     #[inline(always)]
