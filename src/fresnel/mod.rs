@@ -5,9 +5,11 @@
 
 mod average;
 pub mod conductor;
+pub mod constant;
 pub mod dielectric;
 mod double;
 pub mod exact;
+pub mod f82_spectral;
 mod model;
 pub mod quadrature;
 pub mod schlick;
@@ -24,4 +26,8 @@ models! {
     Exact = "exact", conductor::Conductor;
     /// Schlick 1994, with F0 from n and k.
     Schlick = "schlick", schlick::Schlick;
+    /// Hoffman 2019, per wavelength: Schlick with its dip at 82°.
+    F82Spectral = "f82-spectral", f82_spectral::F82Spectral;
+    /// The reflectance at normal incidence at every angle.
+    Constant = "constant", constant::Constant;
 }

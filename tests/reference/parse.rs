@@ -41,7 +41,7 @@ const VALUES: &[(&str, &str)] = &[
     ("Vec<Spanned<f64>>", "list of numbers"),
     ("Vec<Spanned<Numbers<2>>>", "list of [nm, power]"),
     ("Vec<Spanned<Numbers<4>>>", "list of [nx, ny, nz, d]"),
-    ("FresnelModel", "`exact` or `schlick`"),
+    ("FresnelModel", "`exact`, `schlick`, `f82-spectral` or `constant`"),
     ("Spanned<ExposureValue>", "`\"auto\"` or EV"),
     ("Spanned<IndexSource>", "name, n, or `{ n = …, k = … }`"),
     ("Spanned<AbsorptionSource>", "name, or number in 1/m"),
