@@ -1,47 +1,14 @@
 //! Rays inside closed solids always find the way out, above all at edges and vertices, at every scale.
 
+#[path = "common/random.rs"]
+#[allow(dead_code, reason = "each test binary uses a part")]
+mod random;
+
 use glam::Vec3;
+use random::Random;
 use spectrel::geometry::{
     Brilliant, Convex, Departure, Plane, Points, Ray, Shape, ShapeId, Side, Sphere, StepCut, World,
 };
-
-/// A small generator, so that the rays are the same everywhere (O'Neill's PCG, reduced).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u32 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        let x = (((self.0 >> 18) ^ self.0) >> 27) as u32;
-        x.rotate_right((self.0 >> 59) as u32)
-    }
-
-    /// In [0, 1).
-    fn unit(&mut self) -> f32 {
-        (self.next() >> 8) as f32 / (1 << 24) as f32
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        ((self.next() as u64 * n as u64) >> 32) as usize
-    }
-
-    fn direction(&mut self) -> Vec3 {
-        loop {
-            let v = Vec3::new(self.unit(), self.unit(), self.unit()) * 2.0 - 1.0;
-            if (0.01..1.0).contains(&v.length_squared()) {
-                return v.normalize();
-            }
-        }
-    }
-
-    /// Up to three roundings up or down.
-    fn nudge(&mut self, x: f32) -> f32 {
-        f32::from_bits((x.to_bits() as i64 + self.below(7) as i64 - 3).max(0) as u32)
-    }
-
-    fn nudged(&mut self, v: Vec3) -> Vec3 {
-        v.map(|x| if x < 0.0 { -self.nudge(-x) } else { self.nudge(x) })
-    }
-}
 
 const SCALES: [f32; 3] = [1e-4, 1.0, 1e4];
 const ORIGINS: [Vec3; 2] = [Vec3::ZERO, Vec3::new(0.7, -1.3, 0.4)];

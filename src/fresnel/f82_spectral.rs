@@ -8,6 +8,8 @@
 //! - Source: N. Hoffman, "Fresnel Equations Considered Harmful", MAM 2019, whose model in RGB this is per wavelength; c (1 − c)⁶ is largest at
 //!   c = 1/7, 81.8°. F0 and F(1/7) exact, of n and k.
 //! - A lossless interface is fitted on its rarer side, where angles reach 90°; beyond the critical angle F = 1.
+//! - Where the indices nearly match, Schlick's curve is so far off at 82° that the correction leads below 0 elsewhere; a share of light is then
+//!   taken as 0. Metals and stones in air stay within 0…1 by themselves.
 //! - Error against `exact` (`tests/fresnel_models.rs`), largest over 380–780 nm and all angles: silver 0.002, copper 0.012, iron 0.019,
 //!   gold 0.029, diamond 0.030, aluminium 0.033.
 //! - Cost (`benches/fresnel.rs`, SSE2, Sapphire Rapids): 21 ns for eight lanes at a hit, against 14 of `exact`: b takes the exact model once,
@@ -43,7 +45,8 @@ impl<const N: usize> Model<N> for F82Spectral<N> {
 
     #[inline]
     fn reflectance(&self, cos_theta: &Lanes<N>) -> Lanes<N> {
-        self.schlick.reflectance(cos_theta) + self.b * cos_theta.map(|cos| -bump(cos))
+        let curve = self.schlick.reflectance(cos_theta) + self.b * cos_theta.map(|cos| -bump(cos));
+        curve.map(|r| r.clamp(0.0, 1.0))
     }
 }
 
@@ -67,6 +70,18 @@ mod tests {
         for cos in [1.0f32, COS_82, 0.0] {
             let expected = exact::reflect(1.0, n.into(), k.into(), cos.into()).r as f32;
             assert!((curve.reflectance(&Lanes([cos]))[0] - expected).abs() < 1e-6, "{cos}");
+        }
+    }
+
+    /// A negative share could be no probability.
+    #[test]
+    fn nearly_matched_indices_reflect_no_less_than_nothing() {
+        let matched = F82Spectral::new(&Lanes([1.5]), &Lanes([1.51]), &Lanes([0.0]));
+        let unbounded = |cos: f32| matched.schlick.reflectance(&Lanes([cos]))[0] - matched.b[0] * bump(cos);
+        assert!(unbounded(0.3) < -0.05, "the case is not met");
+        for i in 0..=100 {
+            let r = matched.reflectance(&Lanes([i as f32 * 0.01]))[0];
+            assert!((0.0..=1.0).contains(&r), "{i}: {r}");
         }
     }
 

@@ -159,10 +159,6 @@ impl Tree {
         found
     }
 
-    pub fn memory_bytes(&self) -> usize {
-        size_of_val(&self.nodes[..]) + size_of_val(&self.order[..])
-    }
-
     /// Nodes of eight from nodes of two: the child with the largest surface is opened until there are eight. Returns the
     /// depth. Not recursive, since a tree over odd boxes may be deep.
     fn collapse(&mut self, binary: &Bvh2) -> usize {

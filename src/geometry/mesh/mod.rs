@@ -101,17 +101,6 @@ impl Mesh {
         !self.triangles.uvs.is_empty()
     }
 
-    /// Bytes that a mesh keeps in memory.
-    pub fn memory_bytes(&self) -> usize {
-        let Triangles { positions, normals, uvs, indices } = &self.triangles;
-        size_of_val(&positions[..])
-            + size_of_val(&normals[..])
-            + size_of_val(&uvs[..])
-            + size_of_val(&indices[..])
-            + size_of_val(&self.blocks[..])
-            + self.tree.memory_bytes()
-    }
-
     /// Triangles of all blocks that meet a box.
     fn triangles_near(&self, bounds: &Bounds) -> impl Iterator<Item = u32> {
         self.tree.near(bounds).into_iter().flat_map(|leaf| self.blocks[leaf as usize].triangle)

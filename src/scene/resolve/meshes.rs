@@ -3,8 +3,8 @@
 use super::Resolver;
 use crate::geometry::loaders::{self, FileCamera, MeshFile};
 use crate::geometry::{Mesh, Placed};
-use crate::scene::SceneError;
 use crate::scene::describe;
+use crate::scene::{SceneError, listed};
 use crate::spectrum::nearest;
 use glam::Affine3A;
 use std::collections::BTreeMap;
@@ -61,15 +61,20 @@ impl Resolver<'_> {
         }
         match wanted {
             Some(wanted) if pieces.is_empty() => {
-                let names = || loaded.file.placements.iter().map(|placement| placement.name.as_str());
-                let message = format!("the file has no part `{}`", wanted.get_ref());
-                let error = self.text.error(&wanted.span(), message);
-                Err(match nearest(wanted.get_ref(), names()) {
-                    Some(name) => error.help(format!("did you mean `{name}`?")),
-                    None => error.help(format!("it has {}", crate::scene::listed(&names().collect::<Vec<_>>()))),
-                })
+                let names = loaded.file.placements.iter().map(|placement| placement.name.as_str());
+                Err(self.not_in_file("part", wanted, &names.collect::<Vec<_>>()))
             }
             _ => Ok(pieces),
+        }
+    }
+
+    /// A name that a file does not have.
+    pub fn not_in_file(&self, what: &str, wanted: &Spanned<String>, names: &[&str]) -> SceneError {
+        let message = format!("the file has no {what} `{}`", wanted.get_ref());
+        let error = self.text.error(&wanted.span(), message);
+        match nearest(wanted.get_ref(), names.iter().copied()) {
+            Some(name) => error.help(format!("did you mean `{name}`?")),
+            None => error.help(format!("it has {}", listed(names))),
         }
     }
 

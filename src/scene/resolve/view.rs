@@ -4,7 +4,6 @@ use super::{Resolver, vector};
 use crate::geometry::loaders::{FileCamera, Projection};
 use crate::scene::SceneError;
 use crate::scene::describe::{self, Vector};
-use crate::spectrum::nearest;
 use glam::{DVec3, Vec3};
 use std::ops::Range;
 use toml::Spanned;
@@ -41,7 +40,7 @@ impl Resolver<'_> {
         };
         let filed = |of: fn(&FileCamera) -> DVec3| from_file.as_ref().map(|camera| of(camera).as_vec3());
         let position = own(given(&camera.position).or(filed(|camera| camera.position)), "position")?;
-        let ahead = filed(|camera| camera.direction).map(|direction| position + direction * self.depth(position));
+        let ahead = filed(|camera| camera.direction).map(|direction| position + direction * depth(position));
         Ok(View {
             position,
             look_at: own(given(&camera.look_at).or(ahead), "look_at")?,
@@ -50,11 +49,6 @@ impl Resolver<'_> {
             position_at: place(&camera.position),
             look_at_at: place(&camera.look_at),
         })
-    }
-
-    /// How far ahead a point to look at is put, so that single precision keeps the direction.
-    fn depth(&self, position: Vec3) -> f32 {
-        position.abs().max_element().max(1.0)
     }
 
     fn file_camera(
@@ -75,13 +69,12 @@ impl Resolver<'_> {
         };
         found.cloned().ok_or_else(|| match named {
             None => self.text.error(&file.span(), "this file has no camera"),
-            Some(named) => {
-                let error = self.text.error(&named.span(), format!("the file has no camera `{}`", named.get_ref()));
-                match nearest(named.get_ref(), names()) {
-                    Some(name) => error.help(format!("did you mean `{name}`?")),
-                    None => error.help(format!("it has {}", crate::scene::listed(&names().collect::<Vec<_>>()))),
-                }
-            }
+            Some(named) => self.not_in_file("camera", named, &names().collect::<Vec<_>>()),
         })
     }
+}
+
+/// How far ahead a point to look at is put, so that single precision keeps the direction.
+fn depth(position: Vec3) -> f32 {
+    position.abs().max_element().max(1.0)
 }
