@@ -5,12 +5,14 @@ mod error;
 mod forms;
 mod needs;
 mod numbers;
+mod optics;
 mod pictures;
 mod resolve;
 mod words;
 
 pub use error::{Place, SceneError, Text};
 pub use needs::{Decision, Needs, listed};
+pub use optics::{Class, Optics, optics};
 pub use resolve::{Overrides, resolve};
 
 use crate::bsdf::conductor::MIRROR_ALPHA;

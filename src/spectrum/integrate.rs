@@ -46,12 +46,22 @@ pub fn white_xyz(illuminant: &Spectrum, observer: &ColorMatching) -> Result<Xyz,
 /// Lines count in full.
 pub fn tristimulus_1nm(factors: &[&Spectrum], observer: &ColorMatching) -> Xyz {
     let mut sum = [0.0; 3];
-    for nm in LAMBDA_MIN_NM as u32..=LAMBDA_MAX_NM as u32 {
-        let nm = f64::from(nm);
+    for nm in nanometres() {
         add(&mut sum, observer.at(nm), product(factors, nm));
     }
     add_lines(&mut sum, factors, &|nm| observer.at(nm));
     sum
+}
+
+/// The terms of a sum at 1 nm over a light: wavelengths, nm, and the light's power there; its lines count in full.
+pub(super) fn lines_and_nanometres(light: &Spectrum) -> impl Iterator<Item = (f64, f64)> {
+    let visible = |line: &Line| (LAMBDA_MIN_NM..=LAMBDA_MAX_NM).contains(&line.nm);
+    let lines = light.lines().into_iter().filter(visible).map(|line| (line.nm, line.power));
+    nanometres().map(|nm| (nm, light.at(nm))).chain(lines)
+}
+
+fn nanometres() -> impl Iterator<Item = f64> {
+    (LAMBDA_MIN_NM as u32..=LAMBDA_MAX_NM as u32).map(f64::from)
 }
 
 /// XYZ of a perfect reflector under an illuminant, Y = 1, from the 1 nm sum.

@@ -6,6 +6,7 @@
 //! - `integrate`: exact integrals of products of spectra; `observer`: the CIE observers.
 //! - `nodes`: the wavelengths that the renderer uses, and how they sample an integral; `lanes`: those of one path.
 //! - `arena`: the spectra of a scene and their tables; `bins`: intervals of wavelength for spectral pictures.
+//! - `colorimeter`: from a reflectance to RGB, as tables are made.
 //! - `color`, `spaces`, `delta_e`, `upsample`: from XYZ to RGB, to a colour difference, and from RGB to a reflectance;
 //!   `upsample_table` does it for the texels of pictures, `tint` is what it makes of one.
 //!
@@ -16,6 +17,7 @@ mod arena;
 mod bands;
 mod bins;
 mod color;
+mod colorimeter;
 mod csv_file;
 mod curve;
 mod delta_e;
@@ -41,6 +43,7 @@ pub use arena::{Arena, SpectrumId, Tables};
 pub use bands::{Band, Bands};
 pub use bins::{BinShares, Bins};
 pub use color::{Matrix3, Xyz, bradford, lab_from_xyz, xyz_from_lab, xyz_from_xy};
+pub use colorimeter::{Adaptation, Colorimeter};
 pub use curve::Spectrum;
 pub use delta_e::ciede2000;
 pub use emission::{Daylight, Line, planck};
