@@ -1,0 +1,20 @@
+//! The colour of a surface in numbers: F0 tables with the source of every row.
+//!
+//! - `instrument`: the light, the eye and the RGB space, and what a reflectance looks like by them.
+//! - `row`: one data set of a material, measured; `engines`: the same as the parameters of renderers.
+//! - `family`: which published data sets describe the same material, and how far apart they are.
+//! - `check`: a table of someone else's against all of them; `nearest`: the metals that look like a colour.
+//! - `formats`: the same rows as text for a terminal, Markdown, CSV, JSON, TOML or a page.
+//!
+//! Reflectances are exact, from vacuum, at every nanometre of 360–830 nm; the sum is that of [`Colorimeter`].
+//! Nothing is clipped, but what says so.
+//!
+//! [`Colorimeter`]: crate::spectrum::Colorimeter
+
+mod engines;
+mod instrument;
+mod row;
+
+pub use engines::Engines;
+pub use instrument::{Color, Conditions, Instrument};
+pub use row::{D_LINE_NM, Provenance, Row, Specular, Subject};

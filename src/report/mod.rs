@@ -1,0 +1,3 @@
+//! What is measured, as tables and pages for people and for programs.
+
+pub mod f0;
