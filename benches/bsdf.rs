@@ -3,7 +3,7 @@
 use divan::{Bencher, black_box};
 use glam::Vec3;
 use spectrel::bsdf::{Bsdf, Directions, Frame, RoughDielectric, albedo, choose, dielectric};
-use spectrel::fresnel::{FresnelModel, dielectric::fresnel};
+use spectrel::fresnel::{SpectralModel, dielectric::fresnel};
 use spectrel::spectrum::Lanes;
 
 fn main() {
@@ -14,10 +14,10 @@ fn points() -> Vec<[f32; 2]> {
     (0..1000).map(|i| [(i as f32 * 0.754_877_7).fract(), (i as f32 * 0.569_840_3).fract()]).collect()
 }
 
-fn metal(model: FresnelModel, alpha: f32) -> Bsdf<8> {
+fn metal(model: SpectralModel, alpha: f32) -> Bsdf<8> {
     let n2 = Lanes([1.46, 1.43, 1.16, 0.54, 0.28, 0.21, 0.16, 0.15]);
     let k2 = Lanes([1.95, 1.85, 1.82, 2.17, 2.72, 3.12, 3.61, 4.21]);
-    Bsdf::Conductor { fresnel: black_box(model).at(&Lanes::ONE, &n2, &k2), alpha }
+    Bsdf::Conductor { fresnel: black_box(model).at(&Lanes::ONE, &n2, &k2).into(), alpha }
 }
 
 fn sampling(bencher: Bencher, bsdf: Bsdf<8>) {
@@ -27,13 +27,13 @@ fn sampling(bencher: Bencher, bsdf: Bsdf<8>) {
     });
 }
 
-#[divan::bench(args = FresnelModel::ALL)]
-fn sample_rough_metal(bencher: Bencher, model: &FresnelModel) {
+#[divan::bench(args = SpectralModel::ALL)]
+fn sample_rough_metal(bencher: Bencher, model: &SpectralModel) {
     sampling(bencher, metal(*model, 0.3));
 }
 
-#[divan::bench(args = FresnelModel::ALL)]
-fn sample_mirror(bencher: Bencher, model: &FresnelModel) {
+#[divan::bench(args = SpectralModel::ALL)]
+fn sample_mirror(bencher: Bencher, model: &SpectralModel) {
     sampling(bencher, metal(*model, 0.0));
 }
 
@@ -42,8 +42,8 @@ fn sample_diffuse(bencher: Bencher) {
     sampling(bencher, Bsdf::Diffuse { reflectance: Lanes::splat(0.5) });
 }
 
-#[divan::bench(args = FresnelModel::ALL)]
-fn eval_rough_metal(bencher: Bencher, model: &FresnelModel) {
+#[divan::bench(args = SpectralModel::ALL)]
+fn eval_rough_metal(bencher: Bencher, model: &SpectralModel) {
     let (bsdf, wo) = (black_box(metal(*model, 0.3)), black_box(Vec3::new(0.6, 0.0, 0.8)));
     let directions: Vec<_> = points().iter().map(|u| Vec3::new(u[0] - 0.5, u[1] - 0.5, 0.7).normalize()).collect();
     bencher.bench_local(|| {
@@ -54,13 +54,13 @@ fn eval_rough_metal(bencher: Bencher, model: &FresnelModel) {
     });
 }
 
-fn rough_glass(model: FresnelModel) -> RoughDielectric<8> {
+fn rough_glass(model: SpectralModel) -> RoughDielectric<8> {
     let n2 = Lanes([1.86, 1.83, 1.81, 1.80, 1.79, 1.78, 1.775, 1.77]);
-    RoughDielectric::new(black_box(model), &Lanes::ONE, black_box(&n2), 0.3)
+    RoughDielectric::new(black_box(model).into(), &Lanes::ONE, black_box(&n2), 0.3)
 }
 
-#[divan::bench(args = FresnelModel::ALL)]
-fn sample_rough_glass(bencher: Bencher, model: &FresnelModel) {
+#[divan::bench(args = SpectralModel::ALL)]
+fn sample_rough_glass(bencher: Bencher, model: &SpectralModel) {
     let (bsdf, points, wo) = (black_box(rough_glass(*model)), points(), black_box(Vec3::new(0.6, 0.0, 0.8)));
     bencher.bench_local(|| {
         let samples = points.iter().filter_map(|&u| bsdf.sample(wo, u, (7.0 * u[0]).fract()));
@@ -69,8 +69,8 @@ fn sample_rough_glass(bencher: Bencher, model: &FresnelModel) {
 }
 
 /// Half of the directions above the surface, half below.
-#[divan::bench(args = FresnelModel::ALL)]
-fn eval_rough_glass(bencher: Bencher, model: &FresnelModel) {
+#[divan::bench(args = SpectralModel::ALL)]
+fn eval_rough_glass(bencher: Bencher, model: &SpectralModel) {
     let (bsdf, wo) = (black_box(rough_glass(*model)), black_box(Vec3::new(0.6, 0.0, 0.8)));
     let side = |i: usize| if i.is_multiple_of(2) { 0.7 } else { -0.7 };
     let points = points();

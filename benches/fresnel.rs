@@ -1,8 +1,11 @@
 //! Fresnel kernels: `cargo bench --bench fresnel`. Each figure is 1,000 evaluations, so µs read as ns for one, all lanes together.
 
 use divan::{Bencher, black_box};
-use spectrel::fresnel::{FresnelModel, conductor, dielectric, exact};
-use spectrel::spectrum::Lanes;
+use spectrel::fresnel::{
+    Fresnel, FresnelModel, RgbFresnel, RgbModel, Specimen, SpectralModel, Target, conductor, dielectric, exact,
+};
+use spectrel::spectrum::{Adaptation, Colorimeter, Lanes, Library, Observer, RgbSpace};
+use std::path::Path;
 
 fn main() {
     divan::main();
@@ -38,13 +41,37 @@ fn conductor_exact_and_loss<const N: usize>(bencher: Bencher) {
 }
 
 /// As a hit uses it: indices to curve to reflectance, through the enum.
-#[divan::bench(args = FresnelModel::ALL)]
-fn model_at_a_hit_8(bencher: Bencher, model: &FresnelModel) {
+#[divan::bench(args = SpectralModel::ALL)]
+fn spectral_at_a_hit_8(bencher: Bencher, model: &SpectralModel) {
     let ([n1, n2, k2], cosines) = (gold::<8>(), cosines::<8>());
     bencher.bench_local(|| {
-        let hit = |cos: &Lanes<8>| black_box(*model).at(&n1, &n2, &k2).reflectance(cos[0]);
+        let hit = |cos: &Lanes<8>| Fresnel::Spectral(black_box(*model).at(&n1, &n2, &k2)).reflectance(cos[0]);
         cosines.iter().fold(Lanes::ZERO, |sum, cos| sum + hit(cos))
     });
+}
+
+/// The same of a curve that is fitted once.
+#[divan::bench(args = FresnelModel::ALL.iter().filter_map(rgb))]
+fn rgb_at_a_hit_8(bencher: Bencher, model: &RgbModel) {
+    let library = Library::default();
+    let ior = library.ior("Au/olmon-2012-evaporated", Path::new("")).expect("built in");
+    let light = library.illuminant("D65", Path::new("")).expect("built in");
+    let observer = library.observer(Observer::Cie1931).expect("built in");
+    let meter = Colorimeter::new(&light.spectrum, &observer, RgbSpace::Srgb, Adaptation::Bradford).expect("light");
+    let curve = model.fit(&Target::new(Specimen::in_vacuum(&ior), &meter));
+    let primaries = [0.2, 0.5, 0.3].map(|share| black_box(Lanes::splat(share)));
+    let cosines = cosines::<8>();
+    bencher.bench_local(|| {
+        let hit = |cos: &Lanes<8>| Fresnel::Rgb(RgbFresnel { curve: black_box(curve), primaries }).reflectance(cos[0]);
+        cosines.iter().fold(Lanes::ZERO, |sum, cos| sum + hit(cos))
+    });
+}
+
+fn rgb(model: &FresnelModel) -> Option<RgbModel> {
+    match model {
+        FresnelModel::Rgb(model) => Some(*model),
+        FresnelModel::Spectral(_) => None,
+    }
 }
 
 #[divan::bench(consts = [1, 8])]

@@ -5,7 +5,7 @@
 //! ratios, not the seconds.
 
 use spectrel::film::{Film, Window};
-use spectrel::fresnel::FresnelModel;
+use spectrel::fresnel::{FresnelModel, SpectralModel};
 use spectrel::render::{Kernel, render};
 use spectrel::scene::{Needs, Overrides, Scene, Text, resolve};
 use spectrel::spectrum::Library;
@@ -63,7 +63,7 @@ fn main() {
         compare(
             "twelve metals, by Fresnel model, one thread",
             &["schlick", "exact"],
-            &[by_model(FresnelModel::Schlick), by_model(FresnelModel::Exact)],
+            &[by_model(FresnelModel::Spectral(SpectralModel::Schlick)), by_model(FresnelModel::EXACT)],
         );
         let by_lanes = |lanes| scene(METALS, &small(Overrides { lanes: Some(lanes), ..Overrides::default() }));
         compare("twelve metals, by wavelengths a path, one thread", &["1", "4", "8"], &[1, 4, 8].map(by_lanes));

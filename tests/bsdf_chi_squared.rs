@@ -8,7 +8,7 @@ mod statistics;
 
 use glam::{DVec3, Vec3};
 use spectrel::bsdf::Bsdf;
-use spectrel::fresnel::FresnelModel;
+use spectrel::fresnel::SpectralModel;
 use spectrel::fresnel::quadrature::gauss;
 use spectrel::spectrum::Lanes;
 use statistics::{Random, chi_squared};
@@ -29,7 +29,7 @@ fn direction(degrees: f64, azimuth: f64) -> Vec3 {
 }
 
 fn metal(alpha: f32) -> Bsdf<1> {
-    Bsdf::Conductor { fresnel: FresnelModel::Exact.at(&Lanes([1.0]), &Lanes([0.2]), &Lanes([3.0])), alpha }
+    Bsdf::Conductor { fresnel: SpectralModel::Exact.at(&Lanes([1.0]), &Lanes([0.2]), &Lanes([3.0])).into(), alpha }
 }
 
 /// Half-vector cells of a highlight of width `alpha`.

@@ -5,7 +5,7 @@ mod statistics;
 use glam::{DVec3, Vec3};
 use proptest::prelude::*;
 use spectrel::bsdf::{Bsdf, albedo::albedo, conductor::MIRROR_ALPHA};
-use spectrel::fresnel::{Fresnel, FresnelModel, exact};
+use spectrel::fresnel::{Fresnel, SpectralModel, exact};
 use spectrel::spectrum::Lanes;
 use statistics::Random;
 use statistics::directions::{above, unit, upper};
@@ -18,12 +18,14 @@ const GOLD: [(f64, f64); 2] = [(1.38, 1.91), (0.24, 2.92)];
 
 fn gold() -> Fresnel<2> {
     let [blue, red] = GOLD;
-    FresnelModel::Exact.at(&Lanes::ONE, &Lanes([blue.0 as f32, red.0 as f32]), &Lanes([blue.1 as f32, red.1 as f32]))
+    SpectralModel::Exact
+        .at(&Lanes::ONE, &Lanes([blue.0 as f32, red.0 as f32]), &Lanes([blue.1 as f32, red.1 as f32]))
+        .into()
 }
 
 /// F = 1 at every angle.
 fn white() -> Fresnel<2> {
-    FresnelModel::Schlick.at(&Lanes::ONE, &Lanes::ZERO, &Lanes::ONE)
+    SpectralModel::Schlick.at(&Lanes::ONE, &Lanes::ZERO, &Lanes::ONE).into()
 }
 
 fn direction(degrees: f64, azimuth: f64) -> Vec3 {

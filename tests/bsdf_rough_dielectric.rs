@@ -5,7 +5,7 @@ mod statistics;
 use glam::{DVec3, Vec3};
 use proptest::prelude::*;
 use spectrel::bsdf::{RoughDielectric, albedo, conductor::MIRROR_ALPHA};
-use spectrel::fresnel::{FresnelModel, exact};
+use spectrel::fresnel::{SpectralModel, exact};
 use spectrel::spectrum::Lanes;
 use statistics::directions::{above, unit, upper};
 use statistics::{Random, chi_squared};
@@ -33,7 +33,7 @@ fn direction(degrees: f64, azimuth: f64) -> Vec3 {
 }
 
 fn glass<const N: usize>(alpha: f32, n1: [f32; N], n2: [f32; N]) -> RoughDielectric<N> {
-    RoughDielectric::new(FresnelModel::Exact, &Lanes(n1), &Lanes(n2), alpha)
+    RoughDielectric::new(SpectralModel::Exact.into(), &Lanes(n1), &Lanes(n2), alpha)
 }
 
 fn single([n1, n2]: [f64; 2], alpha: f32) -> RoughDielectric<1> {

@@ -3,7 +3,7 @@
 
 use proptest::prelude::*;
 use spectrel::fresnel::exact::{Reflection, reflect};
-use spectrel::fresnel::{FresnelModel, average, conductor, dielectric};
+use spectrel::fresnel::{SpectralModel, average, conductor, dielectric};
 use spectrel::spectrum::Lanes;
 
 type Input = [f32; 4];
@@ -113,7 +113,7 @@ const METALS: [(f32, f32); 5] = [(1.38, 1.91), (0.24, 2.92), (0.96, 6.69), (2.87
 fn schlick_on_metals() {
     let (mut worst, mut averaged) = (0.0_f64, 0.0_f64);
     for (n, k) in METALS {
-        let curve = FresnelModel::Schlick.at(&Lanes::ONE, &Lanes([n]), &Lanes([k]));
+        let curve = SpectralModel::Schlick.at(&Lanes::ONE, &Lanes([n]), &Lanes([k]));
         let difference = |cos: f64| curve.reflectance(cos as f32)[0] as f64 - exact([1.0, n, k, cos as f32]).r;
         worst = (0..=1000).map(|i| difference(i as f64 * 1e-3).abs()).fold(worst, f64::max);
         let mean =

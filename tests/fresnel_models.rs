@@ -3,7 +3,7 @@
 
 mod common;
 
-use spectrel::fresnel::FresnelModel;
+use spectrel::fresnel::SpectralModel;
 use spectrel::fresnel::exact::reflect;
 use spectrel::scene::{Overrides, Scene, Surface};
 use spectrel::spectrum::Lanes;
@@ -38,7 +38,7 @@ fn index(scene: &Scene, nm: f64) -> [f64; 2] {
 }
 
 /// The largest error of a model over wavelengths and angles, and the cosine where it is.
-fn largest_error(model: FresnelModel, material: &str) -> (f64, f64) {
+fn largest_error(model: SpectralModel, material: &str) -> (f64, f64) {
     let scene = scene(material);
     let mut worst = (0.0, 0.0);
     for nm in 380..=780 {
@@ -56,10 +56,10 @@ fn largest_error(model: FresnelModel, material: &str) -> (f64, f64) {
 #[test]
 fn f82_per_wavelength_is_as_far_off_as_it_should_be() {
     for (material, expected) in F82_SPECTRAL {
-        let (error, cos) = largest_error(FresnelModel::F82Spectral, material);
+        let (error, cos) = largest_error(SpectralModel::F82Spectral, material);
         println!("{material}: {error:.5} at cos {cos}, expected {expected}");
         assert!((error - expected).abs() < 2e-4 || (error / expected - 1.0).abs() < 0.02, "{material}: {error}");
-        let (schlick, _) = largest_error(FresnelModel::Schlick, material);
+        let (schlick, _) = largest_error(SpectralModel::Schlick, material);
         assert!(error < schlick, "{material}: no better than Schlick's {schlick}");
     }
 }
@@ -67,7 +67,7 @@ fn f82_per_wavelength_is_as_far_off_as_it_should_be() {
 #[test]
 fn a_constant_is_off_by_what_grazing_light_gains() {
     for (material, _) in F82_SPECTRAL {
-        let (error, cos) = largest_error(FresnelModel::Constant, material);
+        let (error, cos) = largest_error(SpectralModel::Constant, material);
         let scene = scene(material);
         let darkest = (380..=780).map(|nm| index(&scene, f64::from(nm))).map(|[n, k]| reflect(1.0, n, k, 1.0).r);
         let darkest = darkest.fold(1.0, f64::min);

@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 use spectrel::bsdf::Directions;
 use spectrel::bsdf::dielectric::refract_lanes;
-use spectrel::fresnel::FresnelModel;
+use spectrel::fresnel::SpectralModel;
 use spectrel::geometry::{Convex, Departure, Plane, Points, Ray, Shape, ShapeId, Side, World};
 use spectrel::spectrum::{Lanes, Library};
 use std::path::Path;
@@ -21,7 +21,7 @@ fn prism() -> Convex {
 /// Refraction of one lane at a facet; `None` when it is totally reflected.
 fn refracted(direction: Vec3, normal: Vec3, n1: f32, n2: f32) -> Option<Vec3> {
     let cos = Lanes([-direction.dot(normal)]);
-    let boundary = FresnelModel::Exact.dielectric(&Lanes([n1]), &Lanes([n2]), &cos);
+    let boundary = SpectralModel::Exact.dielectric(&Lanes([n1]), &Lanes([n2]), &cos);
     let out = refract_lanes(
         &Directions::splat(direction),
         &Directions::splat(normal),
@@ -83,7 +83,7 @@ fn diamond_reflects_totally_from_its_critical_angle_on() {
     assert!((critical.to_degrees() - 24.43).abs() < 0.02, "the handbook's angle");
     let reflectance = |angle: f64| {
         let cos = Lanes([angle.cos() as f32]);
-        FresnelModel::Exact.dielectric(&Lanes([n as f32]), &Lanes([1.0]), &cos).r[0]
+        SpectralModel::Exact.dielectric(&Lanes([n as f32]), &Lanes([1.0]), &cos).r[0]
     };
     assert_eq!(reflectance(critical + 1e-4), 1.0);
     assert!(reflectance(critical - 1e-4) < 0.96);

@@ -24,7 +24,7 @@
 
 use super::dielectric::refract;
 use super::{Eval, Sample, ggx};
-use crate::fresnel::FresnelModel;
+use crate::fresnel::DielectricFresnel;
 use crate::spectrum::Lanes;
 use glam::Vec3;
 
@@ -34,14 +34,14 @@ pub struct RoughDielectric<const N: usize> {
     n1: Lanes<N>,
     n2: Lanes<N>,
     alpha: f32,
-    model: FresnelModel,
+    fresnel: DielectricFresnel<N>,
 }
 
 impl<const N: usize> RoughDielectric<N> {
     /// From n1, where ωo is, to n2, with facets of roughness α.
     #[inline]
-    pub fn new(model: FresnelModel, n1: &Lanes<N>, n2: &Lanes<N>, alpha: f32) -> Self {
-        Self { n1: *n1, n2: n1.zip(*n2, |n1, n2| part(n1, n2, alpha)), alpha, model }
+    pub fn new(fresnel: DielectricFresnel<N>, n1: &Lanes<N>, n2: &Lanes<N>, alpha: f32) -> Self {
+        Self { n1: *n1, n2: n1.zip(*n2, |n1, n2| part(n1, n2, alpha)), alpha, fresnel }
     }
 
     /// A direction on either side, given ωo with z > 0: its facet by `u`, its lane and whether that reflects by `choice`, all in
@@ -56,7 +56,7 @@ impl<const N: usize> RoughDielectric<N> {
         let projected = wo.dot(normal);
         let (lane, choice) = lane_of::<N>(choice);
         let (n1, n2) = (self.n1[lane], self.n2[lane]);
-        let facet = self.model.dielectric(&Lanes([n1]), &Lanes([n2]), &Lanes([projected.clamp(0.0, 1.0)]));
+        let facet = self.fresnel.lane(lane).at(&Lanes([n1]), &Lanes([n2]), &Lanes([projected.clamp(0.0, 1.0)]));
         let reflects = choice < facet.r[0];
         let wi = match reflects {
             true => normal * (2.0 * projected) - wo,
@@ -92,7 +92,7 @@ impl<const N: usize> RoughDielectric<N> {
             return self.refracted(visible, wi);
         }
         let half = visible.wo() + wi;
-        let r = self.model.dielectric(&self.n1, &self.n2, &Lanes::splat((0.5 * half.length()).min(1.0))).r;
+        let r = self.fresnel.at(&self.n1, &self.n2, &Lanes::splat((0.5 * half.length()).min(1.0))).r;
         r * visible.pdf(ggx::density(half, self.alpha))
     }
 
@@ -111,7 +111,7 @@ impl<const N: usize> RoughDielectric<N> {
             cos[lane] = c_o.clamp(0.0, 1.0);
             density[lane] = if possible { value } else { 0.0 };
         }
-        let r = self.model.dielectric(&self.n1, &self.n2, &cos).r;
+        let r = self.fresnel.at(&self.n1, &self.n2, &cos).r;
         (Lanes::ONE - r) * density
     }
 

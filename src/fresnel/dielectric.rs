@@ -44,6 +44,34 @@ pub fn cos_theta_t<const N: usize>(n1: &Lanes<N>, n2: &Lanes<N>, cos_theta_i: &L
     cos_theta_t
 }
 
+/// The cosine on the side of the smaller index, where the angle covers 0…90°.
+#[inline]
+pub(super) fn on_the_rarer_side<const N: usize>(
+    n1: &Lanes<N>,
+    n2: &Lanes<N>,
+    cos_theta_i: &Lanes<N>,
+    cos_theta_t: &Lanes<N>,
+) -> Lanes<N> {
+    Lanes::from_fn(|lane| if n1[lane] > n2[lane] { cos_theta_t[lane] } else { cos_theta_i[lane] })
+}
+
+/// What an approximation may say of an interface: nothing is reflected where there is none, all beyond the critical angle, and
+/// elsewhere a share within 0…1.
+#[inline]
+pub(super) fn bounded<const N: usize>(
+    n1: &Lanes<N>,
+    n2: &Lanes<N>,
+    curve: &Lanes<N>,
+    cos_theta_t: Lanes<N>,
+) -> Dielectric<N> {
+    let r = Lanes::from_fn(|lane| match () {
+        () if n1[lane] == n2[lane] => 0.0,
+        () if cos_theta_t[lane] == 0.0 => 1.0,
+        () => curve[lane].clamp(0.0, 1.0),
+    });
+    Dielectric { r, cos_theta_t }
+}
+
 /// a² = n2² cos²θ_t, negative under total reflection.
 #[inline(always)]
 fn inside(n1: f32, n2: f32, normal: f32) -> f32 {

@@ -1,10 +1,16 @@
 //! A Fresnel model: what a new one must provide, and the closed set that a scene chooses from by name.
+//!
+//! A spectral model knows the indices at each wavelength. An RGB model knows three channels: it is fitted to the colours of an
+//! interface once, and `rgb` says how it acts on wavelengths.
 
-use super::{Dielectric, FresnelModel, dielectric};
+use super::{Dielectric, FresnelModel, SpectralModel, Target, dielectric};
 use crate::spectrum::{Lanes, nearest};
 
 /// Reflectance as a function of the angle alone: made once per hit from the indices, then asked for cosines.
 pub trait Model<const N: usize>: Copy {
+    /// Whether it is made for lossless interfaces and says nothing of metals.
+    const DIELECTRICS_ONLY: bool = false;
+
     /// The curve of N = n2 + i k2 seen from n1.
     fn new(n1: &Lanes<N>, n2: &Lanes<N>, k2: &Lanes<N>) -> Self;
 
@@ -16,11 +22,18 @@ pub trait Model<const N: usize>: Copy {
     #[inline]
     fn dielectric(n1: &Lanes<N>, n2: &Lanes<N>, cos_theta_i: &Lanes<N>) -> Dielectric<N> {
         let cos_theta_t = dielectric::cos_theta_t(n1, n2, cos_theta_i);
-        let rarer = Lanes::from_fn(|lane| if n1[lane] > n2[lane] { cos_theta_t[lane] } else { cos_theta_i[lane] });
-        let curve = Self::new(n1, n2, &Lanes::ZERO).reflectance(&rarer);
-        let r = Lanes::from_fn(|lane| if n1[lane] == n2[lane] { 0.0 } else { curve[lane] });
-        Dielectric { r, cos_theta_t }
+        let rarer = dielectric::on_the_rarer_side(n1, n2, cos_theta_i, &cos_theta_t);
+        dielectric::bounded(n1, n2, &Self::new(n1, n2, &Lanes::ZERO).reflectance(&rarer), cos_theta_t)
     }
+}
+
+/// Reflectance of red, green and blue (linear sRGB) as a function of the angle: fitted to an interface once.
+pub trait Rgb: Copy {
+    /// The curve nearest to the exact colours of an interface, in the model's own way.
+    fn fit(target: &Target) -> Self;
+
+    /// Unpolarised reflectance of the three channels at cos θ_i; may be above 1 where the colour is.
+    fn reflectance(&self, cos_theta_i: f32) -> Lanes<3>;
 }
 
 /// A model name that is not in the list.
@@ -34,43 +47,67 @@ pub struct UnknownModel {
     pub known: String,
 }
 
-impl UnknownModel {
-    pub(super) fn new(name: &str, names: &[&'static str]) -> Self {
-        Self { name: name.to_owned(), nearest: nearest(name, names.iter().copied()), known: names.join(", ") }
-    }
-}
-
-/// Writes the enum of names and the enum of values from the list of models, with static dispatch.
+/// Writes the enums of names and of values from the lists of models, with static dispatch.
 macro_rules! models {
-    ($($(#[$doc:meta])* $variant:ident = $name:literal, $model:ident::$curve:ident;)+) => {
-        /// The Fresnel model that a scene asks for, by name.
+    (
+        spectral { $($(#[$doc:meta])* $variant:ident = $name:literal, $model:ident::$curve:ident;)+ }
+        rgb { $($(#[$rgb_doc:meta])* $rgb_variant:ident = $rgb_name:literal, $rgb_model:ident::$rgb_curve:ident;)+ }
+    ) => {
+        /// The models that know the indices at each wavelength.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-        pub enum FresnelModel {
+        pub enum SpectralModel {
             $($(#[$doc])* $variant,)+
         }
 
-        /// The reflectance curve at a hit: one model, all lanes.
+        /// The models that know three channels.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum RgbModel {
+            $($(#[$rgb_doc])* $rgb_variant,)+
+        }
+
+        /// The reflectance curve of a spectral model at a hit, all lanes.
         #[derive(Clone, Copy, Debug, PartialEq)]
-        pub enum Fresnel<const N: usize> {
+        pub enum SpectralCurve<const N: usize> {
             $($(#[$doc])* $variant($model::$curve<N>),)+
         }
 
+        /// The reflectance curves of an RGB model, fitted to an interface.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub enum RgbCurve {
+            $($(#[$rgb_doc])* $rgb_variant($rgb_model::$rgb_curve),)+
+        }
+
         impl FresnelModel {
-            pub const ALL: &'static [Self] = &[$(Self::$variant),+];
-            pub const NAMES: &'static [&'static str] = &[$($name),+];
+            pub const ALL: &'static [Self] = &[
+                $(Self::Spectral(SpectralModel::$variant),)+
+                $(Self::Rgb(RgbModel::$rgb_variant),)+
+            ];
+            pub const NAMES: &'static [&'static str] = &[$($name,)+ $($rgb_name,)+];
 
             /// The name in scene files.
             pub fn name(self) -> &'static str {
                 match self {
-                    $(Self::$variant => $name,)+
+                    $(Self::Spectral(SpectralModel::$variant) => $name,)+
+                    $(Self::Rgb(RgbModel::$rgb_variant) => $rgb_name,)+
+                }
+            }
+        }
+
+        impl SpectralModel {
+            pub const ALL: &'static [Self] = &[$(Self::$variant),+];
+
+            /// Whether it is made for lossless interfaces and says nothing of metals.
+            pub fn dielectrics_only(self) -> bool {
+                match self {
+                    $(Self::$variant => <$model::$curve<1> as Model<1>>::DIELECTRICS_ONLY,)+
                 }
             }
 
             /// The curve of N = n2 + i k2 seen from n1.
             #[inline]
-            pub fn at<const N: usize>(self, n1: &Lanes<N>, n2: &Lanes<N>, k2: &Lanes<N>) -> Fresnel<N> {
+            pub fn at<const N: usize>(self, n1: &Lanes<N>, n2: &Lanes<N>, k2: &Lanes<N>) -> SpectralCurve<N> {
                 match self {
-                    $(Self::$variant => Fresnel::$variant($model::$curve::new(n1, n2, k2)),)+
+                    $(Self::$variant => SpectralCurve::$variant($model::$curve::new(n1, n2, k2)),)+
                 }
             }
 
@@ -83,7 +120,7 @@ macro_rules! models {
             }
         }
 
-        impl<const N: usize> Fresnel<N> {
+        impl<const N: usize> SpectralCurve<N> {
             /// Unpolarised reflectance of all lanes at one cos θ_i.
             #[inline]
             pub fn reflectance(&self, cos_theta_i: f32) -> Lanes<N> {
@@ -92,16 +129,48 @@ macro_rules! models {
                 }
             }
         }
+
+        impl RgbModel {
+            /// The curve nearest to the exact colours of an interface, in the model's own way.
+            pub fn fit(self, target: &Target) -> RgbCurve {
+                match self {
+                    $(Self::$rgb_variant => RgbCurve::$rgb_variant($rgb_model::$rgb_curve::fit(target)),)+
+                }
+            }
+        }
+
+        impl RgbCurve {
+            /// Unpolarised reflectance of red, green and blue at one cos θ_i.
+            #[inline]
+            pub fn reflectance(&self, cos_theta_i: f32) -> Lanes<3> {
+                match self {
+                    $(Self::$rgb_variant(curve) => curve.reflectance(cos_theta_i),)+
+                }
+            }
+        }
     };
 }
 
 pub(super) use models;
 
+impl FresnelModel {
+    pub const EXACT: Self = Self::Spectral(SpectralModel::Exact);
+
+    /// Whether it is made for lossless interfaces and says nothing of metals.
+    pub fn dielectrics_only(self) -> bool {
+        matches!(self, Self::Spectral(model) if model.dielectrics_only())
+    }
+}
+
 impl std::str::FromStr for FresnelModel {
     type Err = UnknownModel;
     fn from_str(name: &str) -> Result<Self, UnknownModel> {
         let found = Self::ALL.iter().find(|model| model.name() == name);
-        found.copied().ok_or_else(|| UnknownModel::new(name, Self::NAMES))
+        found.copied().ok_or_else(|| UnknownModel {
+            name: name.to_owned(),
+            nearest: nearest(name, Self::NAMES.iter().copied()),
+            known: Self::NAMES.join(", "),
+        })
     }
 }
 
@@ -126,7 +195,7 @@ impl<'de> serde::Deserialize<'de> for FresnelModel {
 
 #[cfg(test)]
 mod tests {
-    use crate::fresnel::{FresnelModel, UnknownModel};
+    use crate::fresnel::{FresnelModel, SpectralModel, UnknownModel};
 
     #[test]
     fn names_are_read_back() {
@@ -146,8 +215,9 @@ mod tests {
 
     #[test]
     fn scene_files_hold_the_name() {
-        let json = serde_json::to_string(&FresnelModel::Schlick).unwrap();
+        let schlick = FresnelModel::Spectral(SpectralModel::Schlick);
+        let json = serde_json::to_string(&schlick).unwrap();
         assert_eq!(json, "\"schlick\"");
-        assert_eq!(serde_json::from_str::<FresnelModel>(&json).unwrap(), FresnelModel::Schlick);
+        assert_eq!(serde_json::from_str::<FresnelModel>(&json).unwrap(), schlick);
     }
 }

@@ -14,6 +14,7 @@
 
 use crate::bsdf::conductor::MIRROR_ALPHA;
 use crate::bsdf::dielectric::reflect;
+use crate::fresnel::{self, FresnelModel, Specimen, Target};
 use crate::geometry::{Hit, Ray, Side};
 use crate::scene::{MediumId, Needs, Scene, Surface};
 use crate::spectrum::{
@@ -184,11 +185,25 @@ impl<'a> White<'a> {
             Surface::Dielectric(_) => [1.0; 3],
             Surface::Diffuse { reflectance } => self.color(self.values(reflectance)),
             Surface::Conductor { n, k, model, .. } => {
-                let outside = self.values(self.scene.medium(MediumId::OUTSIDE).n);
-                let (n, k) = (self.values(n), self.values(k));
-                let lanes = |values: &[f64], i: usize| Lanes([values[i] as f32]);
-                let head_on = |i| model.at(&lanes(&outside, i), &lanes(&n, i), &lanes(&k, i)).reflectance(1.0)[0];
-                self.color((0..NODE_COUNT).map(|i| f64::from(head_on(i))).collect())
+                let specimen = self.scene.metal([n, k], MediumId::OUTSIDE);
+                self.color(self.head_on(model, specimen))
+            }
+        }
+    }
+
+    /// Reflectance at normal incidence, by node.
+    fn head_on(&self, model: FresnelModel, metal: Specimen) -> Vec<f64> {
+        let at = |spectrum: &Spectrum| self.nodes.values(spectrum);
+        match (model, &self.scene.rgb) {
+            (FresnelModel::Rgb(model), Some(colors)) => {
+                let rgb = model.fit(&Target::new(metal, &colors.meter)).reflectance(1.0);
+                let primaries = colors.primaries.map(|id| self.values(id));
+                (0..NODE_COUNT).map(|i| (0..3).map(|c| f64::from(rgb[c]) * primaries[c][i]).sum()).collect()
+            }
+            _ => {
+                let indices = [metal.n1, metal.n2, metal.k2].map(at);
+                // Every spectral model is exact there.
+                (0..NODE_COUNT).map(|i| fresnel::f0(indices[0][i], indices[1][i], indices[2][i])).collect()
             }
         }
     }

@@ -98,7 +98,6 @@ impl Kernel<'_> {
             path.ray = Ray { origin, ..from_here };
             return Outcome::GoesOn;
         }
-        let Interface { model, .. } = interface;
         if interface.is_rough() {
             let rough = Rough { interface, from, to, beyond: media, far };
             return self.rough_interface(&rough, path, hit, sampler, radiance);
@@ -106,7 +105,8 @@ impl Kernel<'_> {
         let (n1, n2) = (self.n(from, path.offset), self.n(to, path.offset));
         let normal = hit.facing(-path.ray.direction);
         let cos_theta_i = (-path.ray.direction.dot(normal)).clamp(0.0, 1.0);
-        let boundary = model.dielectric(&n1, &n2, &Lanes::splat(cos_theta_i));
+        let fresnel = self.boundary(interface.model, from, to, path.offset);
+        let boundary = fresnel.at(&n1, &n2, &Lanes::splat(cos_theta_i));
         let choice = choose(&path.throughput, &boundary.r, sampler.uniform());
         path.throughput *= choice.weight;
         path.pdf = f32::INFINITY;

@@ -7,6 +7,7 @@ mod features;
 mod interface;
 mod layers;
 mod media;
+mod models;
 mod path;
 mod pattern;
 mod rough;
@@ -25,6 +26,7 @@ use crate::scene::describe::SamplerName;
 use crate::scene::{Needs, Scene};
 use crate::spectrum::{Lanes, Nodes, SpectrumId, Tables};
 use media::MediaStack;
+use models::RgbCurves;
 use path::Path;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -53,6 +55,7 @@ pub struct Kernel<'a> {
     around_camera: MediaStack,
     max_depth: u32,
     sampler: sampler::Kind,
+    rgb: Option<RgbCurves<'a>>,
 }
 
 /// A camera ray and the spectral radiance that arrives along it, at the wavelengths of a place in the tables.
@@ -84,6 +87,7 @@ impl<'a> Kernel<'a> {
             around_camera,
             max_depth: scene.settings.max_depth.unwrap_or(u32::MAX),
             sampler,
+            rgb: RgbCurves::new(scene),
         }
     }
 

@@ -102,9 +102,9 @@ impl Kernel<'_> {
                     self.scatter(&bsdf, &mut path, &hit, sampler, &mut radiance)
                 }
                 Surface::Conductor { n, k, alpha, model } => {
-                    let outside = self.n(path.media.current(), path.offset);
-                    let (n, k) = (self.tables.get(n, path.offset), self.tables.get(k, path.offset));
-                    let bsdf = Bsdf::Conductor { fresnel: model.at(&outside, &n, &k), alpha };
+                    let surface = self.scene.object(hit.shape).surface;
+                    let fresnel = self.metal(model, surface, [n, k], path.media.current(), path.offset);
+                    let bsdf = Bsdf::Conductor { fresnel, alpha };
                     self.scatter(&bsdf, &mut path, &hit, sampler, &mut radiance)
                 }
                 Surface::Dielectric(interface) => {

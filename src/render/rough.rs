@@ -41,7 +41,8 @@ impl Kernel<'_> {
         let frame = Frame::new(hit.facing(-path.ray.direction));
         let wo = frame.to_local(-path.ray.direction);
         let (n1, n2) = (self.n(rough.from, path.offset), self.n(rough.to, path.offset));
-        let bsdf = RoughDielectric::new(model, &n1, &n2, alpha);
+        let fresnel = self.boundary(model, rough.from, rough.to, path.offset);
+        let bsdf = RoughDielectric::new(fresnel, &n1, &n2, alpha);
         if self.needs.light_sampling {
             *radiance += path.throughput * self.direct_rough(&bsdf, rough, &frame, wo, path.offset, hit, sampler);
         }

@@ -41,6 +41,7 @@ impl Kernel<'_> {
         let Interface { medium, model, .. } = *entry.interface;
         let inside = self.n(medium, path.offset);
         let outside = self.n(entry.outside, path.offset);
+        let fresnel = self.boundary(model, medium, entry.outside, path.offset);
         let mut origins = Points::splat(entry.hit.point);
         let mut directions = entry.directions;
         while path.depth < self.max_depth {
@@ -49,7 +50,7 @@ impl Kernel<'_> {
             self.absorb_each(path, medium, &exits.t);
             let normals = Directions::from_fn(|lane| -solid.normal(exits.facet[lane]));
             let cos_theta_i = directions.dot(&normals).map(|cos| (-cos).clamp(0.0, 1.0));
-            let boundary = model.dielectric(&inside, &outside, &cos_theta_i);
+            let boundary = fresnel.at(&inside, &outside, &cos_theta_i);
             let choice = choose(&path.throughput, &boundary.r, sampler.uniform());
             path.throughput *= choice.weight;
             path.depth += 1;

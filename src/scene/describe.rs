@@ -293,7 +293,7 @@ pub struct Conductor {
     /// r with α = r².
     pub perceptual_roughness: Option<Spanned<RoughnessSource>>,
     /// `exact` unless given.
-    pub fresnel: Option<FresnelModel>,
+    pub fresnel: Option<Spanned<FresnelModel>>,
 }
 
 /// A clear or coloured solid such as glass, water or a gem. Smooth unless one of the two words for roughness is given.

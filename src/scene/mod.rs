@@ -17,10 +17,10 @@ pub use resolve::{Overrides, resolve};
 
 use crate::bsdf::conductor::MIRROR_ALPHA;
 use crate::camera::{Camera, Filter};
-use crate::fresnel::FresnelModel;
+use crate::fresnel::{FresnelModel, Specimen};
 use crate::geometry::{ShapeId, World};
 use crate::light::Lights;
-use crate::spectrum::{About, Arena, ColorMatching, SpectrumId, Tint};
+use crate::spectrum::{About, Arena, ColorMatching, Colorimeter, SpectrumId, Tint};
 use crate::texture::Texels;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -51,6 +51,17 @@ pub struct Scene {
     pub sources: Vec<Text>,
     /// Meshes and pictures that it reads.
     pub files: Vec<PathBuf>,
+    /// For scenes in which a surface has an RGB model.
+    pub rgb: Option<RgbColors>,
+}
+
+/// What RGB models of reflectance see with, and what they are seen by.
+#[derive(Clone, Debug)]
+pub struct RgbColors {
+    /// Linear sRGB under D65.
+    pub meter: Colorimeter,
+    /// Reflectances whose colours are its primaries.
+    pub primaries: [SpectrumId; 3],
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -133,7 +144,7 @@ pub enum Inside {
 }
 
 /// Index into [`Scene::media`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct MediumId(pub u16);
 
 impl MediumId {
@@ -194,5 +205,11 @@ impl Scene {
 
     pub fn medium(&self, id: MediumId) -> &Medium {
         &self.media[usize::from(id.0)]
+    }
+
+    /// A metal of the index [n, k], seen from a medium.
+    pub fn metal(&self, index: [SpectrumId; 2], from: MediumId) -> Specimen<'_> {
+        let [n2, k2] = index.map(|id| self.spectra.get(id));
+        Specimen { n1: self.spectra.get(self.medium(from).n), n2, k2 }
     }
 }

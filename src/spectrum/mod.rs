@@ -8,7 +8,7 @@
 //! - `arena`: the spectra of a scene and their tables; `bins`: intervals of wavelength for spectral pictures.
 //! - `colorimeter`: from a reflectance to RGB, as tables are made.
 //! - `color`, `spaces`, `delta_e`, `upsample`: from XYZ to RGB, to a colour difference, and from RGB to a reflectance;
-//!   `upsample_table` does it for the texels of pictures, `tint` is what it makes of one.
+//!   `upsample_table` does it for the texels of pictures, `tint` is what it makes of one; `primaries` does it linearly.
 //!
 //! Wavelengths are vacuum wavelengths in nm; what reaches a picture uses `libm`, so that every machine agrees.
 
@@ -29,6 +29,7 @@ mod lanes;
 mod library;
 mod nodes;
 mod observer;
+mod primaries;
 mod rii_page;
 mod sigmoid;
 mod spaces;
@@ -54,6 +55,7 @@ pub use lanes::{LANES, Lanes};
 pub use library::{Library, MaterialText};
 pub use nodes::{Density, NODE_COUNT, Nodes};
 pub use observer::{ColorMatching, Observer};
+pub use primaries::srgb_primaries;
 pub use sigmoid::Sigmoid;
 pub use spaces::{Chromaticities, RgbSpace, decode_srgb, encode_srgb, hex_from_srgb, srgb_from_hex};
 pub use table::{Outside, Table};

@@ -4,10 +4,13 @@ use super::{Resolver, visible_nm};
 use crate::fresnel::FresnelModel;
 use crate::scene::describe::{self, AbsorptionSource, IndexSource, ReflectanceSource, RoughnessSource};
 use crate::scene::numbers::short;
-use crate::scene::{Interface, Medium, MediumId, Pattern, SceneError, Surface, Text};
-use crate::spectrum::{Ior, Spectrum, SpectrumError, Upsampler, nearest};
+use crate::scene::{Interface, Medium, MediumId, Pattern, RgbColors, SceneError, Surface, Text};
+use crate::spectrum::{
+    Adaptation, Colorimeter, Ior, RgbSpace, Spectrum, SpectrumError, Upsampler, nearest, srgb_primaries,
+};
 use std::fmt::Display;
 use std::ops::{Range, RangeInclusive};
+use std::path::Path;
 use std::sync::Arc;
 use toml::Spanned;
 
@@ -117,7 +120,44 @@ impl Resolver<'_> {
 
     /// The render's model wins over the material's, so that models can be compared by one word.
     fn model(&self, own: Option<FresnelModel>) -> FresnelModel {
-        self.fresnel.or(own).unwrap_or(FresnelModel::Exact)
+        self.fresnel.or(own).unwrap_or(FresnelModel::EXACT)
+    }
+
+    /// A metal's model; some are made for dielectrics alone.
+    fn metal_model(
+        &self,
+        described: &Described,
+        own: &Option<Spanned<FresnelModel>>,
+    ) -> Result<FresnelModel, SceneError> {
+        let model = self.model(own.as_ref().map(|own| *own.get_ref()));
+        if !model.dielectrics_only() {
+            return Ok(model);
+        }
+        let message = format!(
+            "the Fresnel model `{model}` does not apply to `{}`: it is for dielectrics, and this is a conductor",
+            described.name
+        );
+        Err(match (self.fresnel, own) {
+            (None, Some(own)) => described.text.error(&own.span(), message),
+            _ => self.text.error(&described.asked_at, message),
+        })
+    }
+
+    /// What RGB models need, if there are any.
+    pub fn rgb_colors(&mut self) -> Result<Option<RgbColors>, SceneError> {
+        let in_rgb = |surface: &Surface| match surface {
+            Surface::Conductor { model, .. } | Surface::Dielectric(Interface { model, .. }) => {
+                matches!(model, FresnelModel::Rgb(_))
+            }
+            Surface::Black | Surface::Diffuse { .. } => false,
+        };
+        if !self.surfaces.iter().any(in_rgb) {
+            return Ok(None);
+        }
+        let d65 = self.library.illuminant("D65", Path::new(""))?;
+        let meter = Colorimeter::new(&d65.spectrum, &self.observer_1931, RgbSpace::Srgb, Adaptation::Bradford)?;
+        let primaries = srgb_primaries(self.library)?.map(|primary| self.spectra.add(primary));
+        Ok(Some(RgbColors { meter, primaries }))
     }
 
     fn conductor(
@@ -133,7 +173,7 @@ impl Resolver<'_> {
             n: self.spectra.add(ior.n.clone()),
             k: self.spectra.add(ior.k.clone()),
             alpha,
-            model: self.model(conductor.fresnel),
+            model: self.metal_model(described, &conductor.fresnel)?,
         })
     }
 

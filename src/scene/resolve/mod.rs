@@ -121,6 +121,7 @@ impl Resolver<'_> {
         self.warn_of_darkness();
         self.warn_of_unused_materials();
         self.sources.insert(0, self.text.clone());
+        let rgb = self.rgb_colors()?;
         Ok(Scene {
             spectra: self.spectra,
             world,
@@ -138,6 +139,7 @@ impl Resolver<'_> {
             warnings: self.warnings,
             sources: self.sources,
             files: self.files.into_iter().collect(),
+            rgb,
         })
     }
 

@@ -1,0 +1,59 @@
+//! Schlick's approximation at a lossless interface by the cosine of either side: which one it is matters where light leaves the denser medium.
+//!
+//! ```text
+//! F(θ) = F0 + (1 − F0)(1 − c)⁵;   incident: c = cos θ_i;   transmitted: c = cos θ_i from the rarer side, cos θ_t from the denser one
+//! ```
+//!
+//! - Source: C. Schlick, "An inexpensive BRDF model for physically-based rendering" (1994), eq. 15, says θ_i and means light from air; that the
+//!   curve belongs to the rarer side: P. Shirley in S. Marschner & P. Shirley, *Fundamentals of Computer Graphics* (3rd ed., 2009), 13.1.
+//! - Both are 1 beyond the critical angle. The incident form jumps there: from 0.10 in glass and 0.25 in diamond to 1.
+//! - `schlick` is the transmitted form; the name here says so, and that only dielectrics are meant.
+//! - Error against `exact` from the denser side (`tests/fresnel_errors.rs`), largest short of the critical angle: LARGEST
+//! - Cost (`benches/fresnel.rs`, SSE2, Sapphire Rapids): that of `schlick`.
+
+use super::schlick::Schlick;
+use super::{Dielectric, Model, dielectric};
+use crate::spectrum::Lanes;
+
+/// By the cosine on the side that light comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SchlickIncident<const N: usize>(Schlick<N>);
+
+/// By the cosine on the rarer side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SchlickTransmitted<const N: usize>(Schlick<N>);
+
+impl<const N: usize> Model<N> for SchlickIncident<N> {
+    const DIELECTRICS_ONLY: bool = true;
+
+    #[inline]
+    fn new(n1: &Lanes<N>, n2: &Lanes<N>, k2: &Lanes<N>) -> Self {
+        Self(Schlick::new(n1, n2, k2))
+    }
+
+    #[inline]
+    fn reflectance(&self, cos_theta_i: &Lanes<N>) -> Lanes<N> {
+        self.0.reflectance(cos_theta_i)
+    }
+
+    #[inline]
+    fn dielectric(n1: &Lanes<N>, n2: &Lanes<N>, cos_theta_i: &Lanes<N>) -> Dielectric<N> {
+        let cos_theta_t = dielectric::cos_theta_t(n1, n2, cos_theta_i);
+        let curve = Self::new(n1, n2, &Lanes::ZERO).reflectance(cos_theta_i);
+        dielectric::bounded(n1, n2, &curve, cos_theta_t)
+    }
+}
+
+impl<const N: usize> Model<N> for SchlickTransmitted<N> {
+    const DIELECTRICS_ONLY: bool = true;
+
+    #[inline]
+    fn new(n1: &Lanes<N>, n2: &Lanes<N>, k2: &Lanes<N>) -> Self {
+        Self(Schlick::new(n1, n2, k2))
+    }
+
+    #[inline]
+    fn reflectance(&self, cos_theta_i: &Lanes<N>) -> Lanes<N> {
+        self.0.reflectance(cos_theta_i)
+    }
+}

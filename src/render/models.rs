@@ -1,0 +1,96 @@
+//! The Fresnel model of a surface, made ready for the wavelengths of a path.
+//!
+//! Spectral models are made of the indices at each hit. RGB models are fitted once to each interface that a path meets: fits take
+//! milliseconds, and most pairs of media never touch.
+
+use super::Kernel;
+use crate::fresnel::{
+    DielectricFresnel, Fresnel, FresnelModel, RgbCurve, RgbFresnel, RgbModel, Specimen, SpectralModel, Target,
+};
+use crate::scene::{MediumId, RgbColors, Scene};
+use crate::spectrum::SpectrumId;
+use std::collections::HashMap;
+use std::sync::{OnceLock, PoisonError, RwLock};
+
+/// Curves of RGB models by interface, as far as they were needed.
+pub struct RgbCurves<'a> {
+    scene: &'a Scene,
+    colors: &'a RgbColors,
+    /// By surface and the medium it is seen from.
+    metals: Vec<OnceLock<RgbCurve>>,
+    boundaries: RwLock<HashMap<(RgbModel, MediumId, MediumId), RgbCurve>>,
+}
+
+impl<'a> RgbCurves<'a> {
+    pub fn new(scene: &'a Scene) -> Option<Self> {
+        let colors = scene.rgb.as_ref()?;
+        let metals = (0..scene.surfaces.len() * scene.media.len()).map(|_| OnceLock::new()).collect();
+        Some(Self { scene, colors, metals, boundaries: RwLock::default() })
+    }
+
+    /// Of a metal, `surface` of the scene, seen from a medium.
+    fn metal(&self, model: RgbModel, surface: u32, index: [SpectrumId; 2], medium: MediumId) -> RgbCurve {
+        let place = surface as usize * self.scene.media.len() + usize::from(medium.0);
+        *self.metals[place].get_or_init(|| model.fit(&Target::new(self.scene.metal(index, medium), &self.colors.meter)))
+    }
+
+    fn boundary(&self, model: RgbModel, from: MediumId, to: MediumId) -> RgbCurve {
+        let key = (model, from.min(to), from.max(to));
+        let known = self.boundaries.read().unwrap_or_else(PoisonError::into_inner).get(&key).copied();
+        known.unwrap_or_else(|| {
+            let [a, b] = [from, to].map(|medium| self.scene.spectra.get(self.scene.medium(medium).n));
+            let curve = model.fit(&Target::new(Specimen::between(a, b), &self.colors.meter));
+            self.boundaries.write().unwrap_or_else(PoisonError::into_inner).insert(key, curve);
+            curve
+        })
+    }
+}
+
+impl Kernel<'_> {
+    /// The reflectance of a metal of these indices, `surface` of the scene, seen from a medium.
+    #[inline]
+    pub fn metal<const N: usize>(
+        &self,
+        model: FresnelModel,
+        surface: u32,
+        index: [SpectrumId; 2],
+        medium: MediumId,
+        offset: u32,
+    ) -> Fresnel<N> {
+        let spectral = match (model, &self.rgb) {
+            (FresnelModel::Rgb(model), Some(curves)) => {
+                return Fresnel::Rgb(self.on_lanes(curves.metal(model, surface, index, medium), curves, offset));
+            }
+            (FresnelModel::Spectral(model), _) => model,
+            (FresnelModel::Rgb(_), None) => NEVER,
+        };
+        let [n, k] = index.map(|id| self.tables.get(id, offset));
+        Fresnel::Spectral(spectral.at(&self.n(medium, offset), &n, &k))
+    }
+
+    /// The model at the boundary of two clear media.
+    #[inline]
+    pub fn boundary<const N: usize>(
+        &self,
+        model: FresnelModel,
+        from: MediumId,
+        to: MediumId,
+        offset: u32,
+    ) -> DielectricFresnel<N> {
+        match (model, &self.rgb) {
+            (FresnelModel::Rgb(model), Some(curves)) => {
+                DielectricFresnel::Rgb(self.on_lanes(curves.boundary(model, from, to), curves, offset))
+            }
+            (FresnelModel::Spectral(model), _) => DielectricFresnel::Spectral(model),
+            (FresnelModel::Rgb(_), None) => DielectricFresnel::Spectral(NEVER),
+        }
+    }
+
+    #[inline(never)]
+    fn on_lanes<const N: usize>(&self, curve: RgbCurve, curves: &RgbCurves, offset: u32) -> RgbFresnel<N> {
+        RgbFresnel { curve, primaries: curves.colors.primaries.map(|id| self.tables.get(id, offset)) }
+    }
+}
+
+/// For RGB models in a scene without their colours, which `resolve` never makes.
+const NEVER: SpectralModel = SpectralModel::Exact;
