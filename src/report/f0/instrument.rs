@@ -1,7 +1,8 @@
 //! A light, an eye and an RGB space: what a reflectance looks like.
 
+use crate::fresnel::f0;
 use crate::spectrum::{
-    Adaptation, Colorimeter, Dataset, Library, Observer, RgbSpace, SpectrumError, Xyz, ciede2000, hex_from_srgb,
+    Adaptation, Colorimeter, Dataset, Ior, Library, Observer, RgbSpace, SpectrumError, Xyz, ciede2000, hex_from_srgb,
 };
 use serde::Serialize;
 use std::path::Path;
@@ -67,6 +68,14 @@ impl Instrument {
     pub fn rgb(&self, reflectances: impl IntoIterator<Item = f64>) -> [f64; 3] {
         let mut reflectances = reflectances.into_iter();
         self.meter.rgb(|_| reflectances.next().unwrap_or(0.0))
+    }
+
+    /// Linear RGB of a material at normal incidence in vacuum.
+    pub fn f0(&self, ior: &Ior) -> [f64; 3] {
+        self.meter.rgb(|nm| {
+            let (n, k) = ior.at(nm);
+            f0(1.0, n, k)
+        })
     }
 
     /// Luminous reflectance Y of reflectances, one for each wavelength: that of a perfect reflector is 1.

@@ -12,9 +12,14 @@
 //! [`Colorimeter`]: crate::spectrum::Colorimeter
 
 mod engines;
+mod family;
+pub mod formats;
 mod instrument;
 mod row;
+mod table;
 
 pub use engines::Engines;
+pub use family::Families;
 pub use instrument::{Color, Conditions, Instrument};
 pub use row::{D_LINE_NM, Provenance, Row, Specular, Subject};
+pub use table::{Distance, Spread, Table, Widest, observer_name};

@@ -148,3 +148,11 @@ impl Provenance {
         }
     }
 }
+
+impl Provenance {
+    /// First author and year.
+    pub fn citation(&self) -> String {
+        let first = self.authors.split([',', ';']).next().unwrap_or_default();
+        self.year.map_or_else(|| first.to_owned(), |year| format!("{first} {year}"))
+    }
+}
