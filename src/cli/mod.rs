@@ -1,5 +1,6 @@
 //! The command line: one file a command.
 
+mod f0;
 mod fresnel;
 mod inspect;
 mod interrupt;
@@ -51,6 +52,8 @@ enum Command {
     Inspect(inspect::InspectArgs),
     /// List the materials, spectra or illuminants that scenes can name, with their sources
     List(list::ListArgs),
+    /// Colours of materials at normal incidence and beyond, with their sources, as tables for people and engines
+    F0(f0::F0Args),
     /// The Fresnel equations by themselves, without a scene
     Fresnel(fresnel::FresnelArgs),
 }
@@ -147,6 +150,7 @@ pub fn main() -> ExitCode {
         Some(Command::Render(args)) => render::run(&args),
         Some(Command::Inspect(args)) => inspect::run(&args),
         Some(Command::List(args)) => list::run(&args),
+        Some(Command::F0(args)) => f0::run(&args),
         Some(Command::Fresnel(args)) => fresnel::run(&args),
     };
     match outcome {
