@@ -92,12 +92,7 @@ impl Engines {
                 reflectance: specular.map(|specular| specular.reflectance.min(1.0)),
             },
             unreal: Unreal { base_color: base, metallic, specular: level },
-            openpbr: OpenPbr {
-                base_color: base,
-                base_metalness: metallic,
-                specular_color: tint,
-                specular_ior: ior,
-            },
+            openpbr: OpenPbr { base_color: base, base_metalness: metallic, specular_color: tint, specular_ior: ior },
             disney: Disney { base_color: base, metallic, specular: level },
         }
     }

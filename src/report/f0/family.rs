@@ -3,11 +3,12 @@
 //! Sets of one folder of `spectra/ior` are of one element or compound, which is not yet one material: carbon is diamond and graphite. So a
 //! set that no material stands on belongs to the material of its folder whose F0 looks most like its own (CIEDE2000), but
 //!
+//! - a clear set and an opaque one are of two materials;
 //! - of another axis of a crystal (names that end in `-o`, `-e`, `-alpha` …) it is another index of the same crystal, and belongs to none;
 //! - in the folder of a mixture (`Cu-Zn`), another composition is another material.
 
-use super::Instrument;
-use crate::spectrum::{Library, Quantity, SpectrumError};
+use super::{D_LINE_NM, Instrument};
+use crate::spectrum::{Ior, Library, Quantity, SpectrumError};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -21,7 +22,7 @@ pub struct Families {
 impl Families {
     /// `primaries` are the sets that materials stand on.
     pub fn new(primaries: &[String], library: &Library, instrument: &Instrument) -> Result<Self, SpectrumError> {
-        let colour = |set: &str| library.ior(set, Path::new("")).map(|ior| instrument.f0(&ior));
+        let load = |set: &str| library.ior(set, Path::new(""));
         let mut families = Self::default();
         families.others.extend(primaries.iter().map(|primary| (primary.clone(), Vec::new())));
         for set in library.names(Quantity::Ior) {
@@ -30,8 +31,9 @@ impl Families {
             }
             let mut nearest: Option<(f64, &String)> = None;
             for primary in primaries.iter().filter(|primary| may_be_same(primary, &set)) {
-                let distance = instrument.difference(colour(primary)?, colour(&set)?);
-                if nearest.is_none_or(|(least, _)| distance < least) {
+                let (a, b) = (load(primary)?, load(&set)?);
+                let distance = instrument.difference(instrument.f0(&a), instrument.f0(&b));
+                if is_clear(&a) == is_clear(&b) && nearest.is_none_or(|(least, _)| distance < least) {
                     nearest = Some((distance, primary));
                 }
             }
@@ -48,6 +50,13 @@ impl Families {
         let members = family.into_iter().flat_map(|(primary, others)| std::iter::once(primary).chain(others));
         std::iter::once(set.to_owned()).chain(members.filter(|member| *member != set).cloned()).collect()
     }
+}
+
+/// A k below this lets light through a thousandth of a millimetre.
+const CLEAR_K: f64 = 1e-2;
+
+fn is_clear(ior: &Ior) -> bool {
+    ior.at(D_LINE_NM).1 < CLEAR_K
 }
 
 fn may_be_same(a: &str, b: &str) -> bool {

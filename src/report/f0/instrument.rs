@@ -2,7 +2,7 @@
 
 use crate::fresnel::f0;
 use crate::spectrum::{
-    Adaptation, Colorimeter, Dataset, Ior, Library, Observer, RgbSpace, SpectrumError, Xyz, ciede2000, hex_from_srgb,
+    Adaptation, Colorimeter, Ior, Library, Observer, RgbSpace, SpectrumError, Xyz, ciede2000, hex_from_srgb,
 };
 use serde::Serialize;
 use std::path::Path;
@@ -21,8 +21,47 @@ impl Default for Conditions {
     /// The convention of colour tables: D65, CIE 1931, sRGB, Bradford.
     fn default() -> Self {
         let illuminant = "D65".to_owned();
-        Self { illuminant, observer: Observer::default(), space: RgbSpace::default(), adaptation: Adaptation::default() }
+        Self {
+            illuminant,
+            observer: Observer::default(),
+            space: RgbSpace::default(),
+            adaptation: Adaptation::default(),
+        }
     }
+}
+
+/// The conditions in words, as tables state them.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Labels {
+    pub illuminant: String,
+    pub observer: &'static str,
+    pub space: &'static str,
+    pub adapt: &'static str,
+}
+
+impl Conditions {
+    pub fn labels(&self) -> Labels {
+        Labels {
+            illuminant: self.illuminant.clone(),
+            observer: observer_name(self.observer),
+            space: self.space.name(),
+            adapt: self.adaptation.name(),
+        }
+    }
+}
+
+impl Labels {
+    /// In one line.
+    pub fn sentence(&self) -> String {
+        let Self { illuminant, observer, space, adapt } = self;
+        let adapted = if *adapt == "none" { "not adapted".to_owned() } else { format!("{adapt} adaptation") };
+        format!("Illuminant {illuminant}, observer CIE {observer}, {space}, {adapted}, from vacuum")
+    }
+}
+
+/// An observer's name without its publisher.
+pub fn observer_name(observer: Observer) -> &'static str {
+    observer.name().trim_start_matches("cie-")
 }
 
 /// A colour in the space of an instrument.
@@ -40,8 +79,6 @@ pub struct Color {
 
 /// The conditions with their data.
 pub struct Instrument {
-    /// The name of the light as the library has it.
-    pub illuminant: String,
     pub conditions: Conditions,
     meter: Colorimeter,
     /// Whose Y is that of the light itself.
@@ -53,10 +90,9 @@ impl Instrument {
     pub fn new(conditions: Conditions, library: &Library) -> Result<Self, SpectrumError> {
         let observer = library.observer(conditions.observer)?;
         let light = library.illuminant(&conditions.illuminant, Path::new(""))?;
-        let Dataset { spectrum, about } = light.as_ref();
-        let meter = Colorimeter::new(spectrum, &observer, conditions.space, conditions.adaptation)?;
-        let unadapted = Colorimeter::new(spectrum, &observer, RgbSpace::Srgb, Adaptation::None)?;
-        Ok(Self { illuminant: about.name.clone(), conditions, meter, unadapted })
+        let meter = Colorimeter::new(&light.spectrum, &observer, conditions.space, conditions.adaptation)?;
+        let unadapted = Colorimeter::new(&light.spectrum, &observer, RgbSpace::Srgb, Adaptation::None)?;
+        Ok(Self { conditions, meter, unadapted })
     }
 
     /// The wavelengths that count, nm.

@@ -3,7 +3,7 @@
 //! - `instrument`: the light, the eye and the RGB space, and what a reflectance looks like by them.
 //! - `row`: one data set of a material, measured; `engines`: the same as the parameters of renderers.
 //! - `family`: which published data sets describe the same material, and how far apart they are.
-//! - `check`: a table of someone else's against all of them; `nearest`: the metals that look like a colour.
+//! - `claims`, `check`: a table of someone else's, read, and held against all of them; `likeness`: the metals that look like a colour.
 //! - `formats`: the same rows as text for a terminal, Markdown, CSV, JSON, TOML or a page.
 //!
 //! Reflectances are exact, from vacuum, at every nanometre of 360–830 nm; the sum is that of [`Colorimeter`].
@@ -11,15 +11,19 @@
 //!
 //! [`Colorimeter`]: crate::spectrum::Colorimeter
 
+pub mod check;
+pub mod claims;
 mod engines;
 mod family;
 pub mod formats;
 mod instrument;
+mod likeness;
 mod row;
 mod table;
 
 pub use engines::Engines;
 pub use family::Families;
-pub use instrument::{Color, Conditions, Instrument};
+pub use instrument::{Color, Conditions, Instrument, Labels, observer_name};
+pub use likeness::{Likeness, Likenesses, Nearer};
 pub use row::{D_LINE_NM, Provenance, Row, Specular, Subject};
-pub use table::{Distance, Spread, Table, Widest, observer_name};
+pub use table::{Distance, Spread, Table, Widest};

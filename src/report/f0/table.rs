@@ -1,17 +1,14 @@
 //! An F0 table: rows under common conditions, and how far apart published sets of a material are.
 
-use super::{Instrument, Row, Subject};
-use crate::spectrum::Observer;
+use super::{Instrument, Labels, Row, Subject};
 use rayon::prelude::*;
 use serde::Serialize;
 
 /// Rows with the conditions that they hold under.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Table {
-    pub illuminant: String,
-    pub observer: &'static str,
-    pub space: &'static str,
-    pub adapt: &'static str,
+    #[serde(flatten)]
+    pub conditions: Labels,
     pub materials: Vec<Row>,
     /// One for each material, where all its data sets were asked for.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -46,20 +43,11 @@ pub struct Widest {
     pub between: [String; 2],
 }
 
-/// An observer's name without its publisher.
-pub fn observer_name(observer: Observer) -> &'static str {
-    observer.name().trim_start_matches("cie-")
-}
-
 impl Table {
     /// One row for each subject.
     pub fn new(subjects: &[Subject], instrument: &Instrument) -> Self {
-        let conditions = &instrument.conditions;
         Self {
-            illuminant: instrument.illuminant.clone(),
-            observer: observer_name(conditions.observer),
-            space: conditions.space.name(),
-            adapt: conditions.adaptation.name(),
+            conditions: instrument.conditions.labels(),
             materials: subjects.par_iter().map(|subject| Row::new(subject, instrument)).collect(),
             spread: Vec::new(),
         }

@@ -45,7 +45,7 @@ const STYLE: &str = include_str!("style.css");
 
 /// The page of an F0 table.
 pub(super) fn table(table: &Table) -> Page {
-    let cards: Vec<_> = table.materials.iter().map(|row| card(row, table.space)).collect();
+    let cards: Vec<_> = table.materials.iter().map(|row| card(row, table.conditions.space)).collect();
     let spread: Vec<_> = table.spread.iter().map(|spread| format!("<li>{}</li>", escape(&spread.sentence()))).collect();
     let spread = match spread.as_slice() {
         [] => String::new(),
@@ -53,7 +53,7 @@ pub(super) fn table(table: &Table) -> Page {
     };
     Page {
         title: "F0 of measured materials".into(),
-        paragraphs: vec![table.conditions() + ".", LEGEND.to_owned()],
+        paragraphs: vec![table.conditions.sentence() + ".", LEGEND.to_owned()],
         body: format!("<section class=\"cards\">\n{}</section>\n{spread}", cards.concat()),
     }
 }
@@ -154,7 +154,8 @@ fn engines(row: &Row) -> String {
 
 fn source(row: &Row) -> String {
     let source = &row.source;
-    let mut text = format!("<code>{}</code> – {}: {}", escape(&row.ior), escape(&source.authors), escape(&source.title));
+    let mut text =
+        format!("<code>{}</code> – {}: {}", escape(&row.ior), escape(&source.authors), escape(&source.title));
     if let Some(journal) = &source.journal {
         text += &format!(", {}", escape(journal));
     }

@@ -3,6 +3,7 @@
 mod grid;
 mod html;
 mod rows;
+mod verdicts;
 
 pub use grid::Grid;
 pub use html::Page;

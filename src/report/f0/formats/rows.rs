@@ -1,7 +1,7 @@
 //! The columns of an F0 table.
 
 use super::{Grid, Page, Report};
-use crate::report::f0::{Color, Row, Table};
+use crate::report::f0::{Color, Labels, Row, Table};
 
 /// Digits after the point where people read, and where programs do.
 const BRIEF: usize = 4;
@@ -12,15 +12,18 @@ impl Report for Table {
         let mut heading = vec!["Material"];
         let hex = self.has_hex();
         heading.extend(hex.then_some("Hex"));
-        heading.extend(["Red", "Green", "Blue", "Tint R", "Tint G", "Tint B", "n_d", "k_d", "Data set", "Source"]);
-        Grid::new(&heading, self.materials.iter().map(|row| brief(row, hex)))
+        heading.extend(["Red", "Green", "Blue", "Tint R", "Tint G", "Tint B", "n_d", "k_d"]);
+        heading.extend((!self.spread.is_empty()).then_some("ΔE2000"));
+        heading.extend(["Data set", "Source"]);
+        Grid::new(&heading, self.materials.iter().map(|row| self.brief_row(row, hex)))
     }
 
     fn full(&self) -> Grid {
         let columns = columns();
         let heading: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).collect();
         let conditions = ["illuminant", "observer", "space", "adapt"];
-        let values = [self.illuminant.as_str(), self.observer, self.space, self.adapt];
+        let Labels { illuminant, observer, space, adapt } = &self.conditions;
+        let values = [illuminant.as_str(), observer, space, adapt];
         let row = |row: &Row| {
             let own = columns.iter().map(|(_, value)| value(row));
             own.chain(values.map(str::to_owned)).collect()
@@ -29,14 +32,15 @@ impl Report for Table {
     }
 
     fn notes(&self) -> Vec<String> {
-        let mut notes = vec![self.conditions(), KEY.to_owned()];
+        let mut notes = vec![self.conditions.sentence(), KEY.to_owned()];
         if self.materials.iter().any(|row| !row.f0.in_gamut) {
             notes.push("* outside 0…1, printed unclipped; its hex is clipped".into());
         }
-        let short: Vec<_> = self.materials.iter().filter(|row| !row.source.covers_visible).map(reach).collect();
-        if !short.is_empty() {
-            let what = "† ends inside the visible; beyond, ends are held and formulas extrapolated";
-            notes.push(format!("{what}: {}", short.join(", ")));
+        if self.materials.iter().any(|row| !row.source.covers_visible) {
+            notes.push("† ends inside the visible; beyond, its ends are held or its formula is extrapolated".into());
+        }
+        if self.materials.iter().any(|row| row.source.is_doubtful()) {
+            notes.push("‡ of low confidence, or modelled: better data are not public".into());
         }
         notes.extend(self.spread.iter().map(super::super::Spread::sentence));
         notes
@@ -51,34 +55,32 @@ const KEY: &str = "Red, Green, Blue: linear F0. Tint: F(cos θ = 1/7) against Sc
 n_d, k_d: at 587.56 nm. More columns (82°, 1/7, F_avg, encoded, engines, DOI): --format csv or json";
 
 impl Table {
-    pub(super) fn conditions(&self) -> String {
-        let adapted = if self.adapt == "none" { "not adapted".to_owned() } else { format!("{} adaptation", self.adapt) };
-        let Self { illuminant, observer, space, .. } = self;
-        format!("Illuminant {illuminant}, observer CIE {observer}, {space}, {adapted}, from vacuum")
-    }
-
     fn has_hex(&self) -> bool {
         self.materials.iter().any(|row| row.f0.hex.is_some())
     }
-}
 
-fn reach(row: &Row) -> String {
-    let (first, last) = row.source.range_nm.unwrap_or_default();
-    format!("{} {first}–{last} nm", row.ior)
-}
+    fn brief_row(&self, row: &Row, hex: bool) -> Vec<String> {
+        let number = |value: f64| format!("{value:.BRIEF$}");
+        let channel = |value: f64| number(value) + if (0.0..=1.0).contains(&value) { "" } else { "*" };
+        let tint = row.engines.openpbr.specular_color.map(|tint| tint.map(number));
+        let mut cells = vec![row.name.clone()];
+        cells.extend(hex.then(|| row.f0.hex.clone().unwrap_or_default()));
+        cells.extend(row.f0.linear.map(channel));
+        cells.extend(tint.unwrap_or_else(|| ["–"; 3].map(str::to_owned)));
+        cells.extend([number(row.n_d), if row.k_d == 0.0 { "0".into() } else { small(row.k_d) }]);
+        cells.extend((!self.spread.is_empty()).then(|| self.distance(row)));
+        let short = if row.source.covers_visible { "" } else { " †" };
+        let doubtful = if row.source.is_doubtful() { " ‡" } else { "" };
+        cells.extend([format!("{}{short}{doubtful}", row.ior), row.source.citation()]);
+        cells
+    }
 
-fn brief(row: &Row, hex: bool) -> Vec<String> {
-    let number = |value: f64| format!("{value:.BRIEF$}");
-    let channel = |value: f64| number(value) + if (0.0..=1.0).contains(&value) { "" } else { "*" };
-    let tint = row.engines.openpbr.specular_color.map(|tint| tint.map(number));
-    let mut cells = vec![row.name.clone()];
-    cells.extend(hex.then(|| row.f0.hex.clone().unwrap_or_default()));
-    cells.extend(row.f0.linear.map(channel));
-    cells.extend(tint.unwrap_or_else(|| ["–"; 3].map(str::to_owned)));
-    cells.extend([number(row.n_d), if row.k_d == 0.0 { "0".into() } else { small(row.k_d) }]);
-    cells.push(row.ior.clone() + if row.source.covers_visible { "" } else { " †" });
-    cells.push(row.source.citation());
-    cells
+    /// ΔE2000 to the set that stands for the material.
+    fn distance(&self, row: &Row) -> String {
+        let own = self.spread.iter().filter(|spread| spread.name == row.name);
+        let set = own.flat_map(|spread| &spread.sets).find(|set| set.ior == row.ior);
+        set.map_or("–".into(), |set| format!("{:.2}", set.delta_e))
+    }
 }
 
 /// A k of a clear stone is small.
