@@ -211,6 +211,9 @@ fn checked(file: &Path, args: &F0Args, library: &Library, instrument: &Instrumen
     let known = known(args, library, instrument)?;
     let verdict = |claim: Claim| {
         let found = optics(&claim.material, None, library);
+        // Others write `Stainless Steel` or `stainless_steel`.
+        let found =
+            found.or_else(|error| optics(&claim.material.replace([' ', '_'], "-"), None, library).map_err(|_| error));
         let own = found.as_ref().map_err(ToString::to_string).and_then(|optics| {
             let same = known.iter().map(|(known, _)| known).find(|known| known.name == optics.name);
             same.ok_or_else(|| format!("`{}` is a data set, not a material", optics.name))

@@ -4,7 +4,7 @@
 //! A colour within 0…1 cannot say more than 1, so it is held against F0 clipped to 1, and, if its largest channel is 1 and that of F0 is
 //! above, also against F0 divided by its largest channel: the other way to make it fit.
 //!
-//! - *match*: ΔE2000 ≤ 1 from a data set; about what an eye can just tell (CIE 142-2001).
+//! - *match*: ΔE2000 ≤ 1 from a data set; about what an eye can just tell (`spectrum::ciede2000`).
 //! - *near*: ≤ 2; told at close observation.
 //! - *mis-encoded*: not near as stated, yet a match under the other encoding.
 //! - *nothing*: neither. The limits are the same for every row.

@@ -34,7 +34,7 @@ pub fn read(text: &[u8]) -> Result<Vec<Claim>, ClaimsError> {
     let columns = Columns::of(&headers).map_err(|message| ClaimsError { line: None, message })?;
     let claims = reader.records().map(|record| {
         let record = record.map_err(unreadable)?;
-        let line = record.position().map_or(0, csv::Position::line);
+        let line = line(text, &record);
         columns.claim(&record, line).map_err(|message| ClaimsError { line: Some(line), message })
     });
     let claims = claims.collect::<Result<Vec<_>, _>>()?;
@@ -42,6 +42,15 @@ pub fn read(text: &[u8]) -> Result<Vec<Claim>, ClaimsError> {
         true => Err(ClaimsError { line: None, message: "the table has no rows".into() }),
         false => Ok(claims),
     }
+}
+
+/// The line of a record, from 1: its position is that of the comments before it.
+fn line(text: &[u8], record: &StringRecord) -> u64 {
+    let start = record.position().map_or(0, |position| position.byte() as usize).min(text.len());
+    let (before, rest) = text.split_at(start);
+    let skipped = |line: &&[u8]| line.trim_ascii().is_empty() || line.starts_with(b"#");
+    let comments = rest.split(|byte| *byte == b'\n').take_while(skipped).count();
+    (before.iter().filter(|byte| **byte == b'\n').count() + comments + 1) as u64
 }
 
 fn unreadable(error: csv::Error) -> ClaimsError {

@@ -3,7 +3,7 @@
 //! | engine | metal | dielectric | defined in |
 //! |---|---|---|---|
 //! | glTF | `baseColorFactor` = F0, linear Rec. 709 | `ior` = n_d | Khronos, *glTF 2.0 Specification*, 3.9.2 and appendix B; *KHR_materials_ior* |
-//! | Filament | `baseColor` = F0, linear Rec. 709 | `reflectance` = √(F0/0.16) | Guy & Agopian, *Physically Based Rendering in Filament*, 4.8.3; *Filament Materials Guide*, baseColor |
+//! | Filament | `baseColor` = F0, linear Rec. 709 | `reflectance` = √(F0/0.16) | Guy & Agopian, *Physically Based Rendering in Filament*, "Reflectance remapping"; *Filament Materials Guide*, "Base color" |
 //! | Unreal | `BaseColor` = F0, linear | `Specular` = F0/0.08 | Karis, *Real Shading in Unreal Engine 4*, SIGGRAPH 2013; Epic, *Physically Based Materials* |
 //! | OpenPBR, MaterialX | `base_color` = F0, `specular_color` = F82 tint | `specular_ior` = n_d | ASWF, *OpenPBR Surface 1.1*, metal and dielectric base; Kutz, Hašan & Edmondson, *Novel aspects of the Adobe Standard Material*, 2021 |
 //! | Disney | `baseColor` = F0, linear | `specular` = F0/0.08 | Burley, *Physically-Based Shading at Disney*, SIGGRAPH 2012, 5.5 |

@@ -60,7 +60,7 @@ impl Grid {
     /// Whether every cell below the heading is a number or nothing, and one is a number.
     fn is_number(&self, column: usize) -> bool {
         let mut cells = self.rows.iter().filter_map(|row| row.get(column)).filter(|cell| !is_nothing(cell)).peekable();
-        cells.peek().is_some() && cells.all(|cell| cell.trim_end_matches('*').parse::<f64>().is_ok())
+        cells.peek().is_some() && cells.all(|cell| cell.trim_end_matches(['\\', '*']).parse::<f64>().is_ok())
     }
 
     fn aligned(&self, line: &[String], widths: &[usize], gap: &str) -> String {
@@ -82,7 +82,7 @@ fn width(text: &str) -> usize {
 }
 
 /// Without what Markdown reads as a table, markup or HTML.
-fn escape_markdown(text: &str) -> String {
+pub(super) fn escape_markdown(text: &str) -> String {
     let mut escaped = String::new();
     for character in text.chars() {
         match character {
@@ -114,7 +114,7 @@ mod tests {
     #[test]
     fn what_would_be_markup_is_escaped() {
         let text = grid().markdown();
-        assert!(text.contains("\n| --------------- | -----: |\n"), "{text}");
+        assert!(text.contains("\n| ----------------- | ------: |\n"), "{text}");
         assert!(text.contains("| a\\|b, \"c\" \\<i\\> | 11.5\\* |"), "{text}");
         assert!(grid().csv().unwrap().contains("\n\"a|b, \"\"c\"\" <i>\",11.5*\n"));
     }

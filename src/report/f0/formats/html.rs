@@ -45,7 +45,8 @@ const STYLE: &str = include_str!("style.css");
 
 /// The page of an F0 table.
 pub(super) fn table(table: &Table) -> Page {
-    let cards: Vec<_> = table.materials.iter().map(|row| card(row, table.conditions.space)).collect();
+    let cards: Vec<_> =
+        table.materials.iter().map(|row| card(row, &table.distance(row), table.conditions.space)).collect();
     let spread: Vec<_> = table.spread.iter().map(|spread| format!("<li>{}</li>", escape(&spread.sentence()))).collect();
     let spread = match spread.as_slice() {
         [] => String::new(),
@@ -62,7 +63,8 @@ const LEGEND: &str = "Numbers are linear unless they say so, and not clipped; on
 The columns are the reflectance at normal incidence, at 82°, at cos θ = 1/7, and on average over diffuse light. \
 n and k are at 587.56 nm.";
 
-fn card(row: &Row, space: &str) -> String {
+/// `distance` is ΔE2000 to the set that stands for the material, where others are told too.
+fn card(row: &Row, distance: &str, space: &str) -> String {
     let kinds = [("0°", &row.f0), ("82°", &row.f82), ("cos 1/7", &row.f_mu17), ("average", &row.f_avg)];
     let swatches: Vec<_> = kinds.iter().map(|(name, color)| swatch(name, color, space)).collect();
     let channels = ["Red", "Green", "Blue"].iter().enumerate().map(|(i, channel)| {
@@ -70,9 +72,10 @@ fn card(row: &Row, space: &str) -> String {
         format!("<tr><th>{channel}</th>{}</tr>\n", cells.concat())
     });
     let head = kinds.map(|(name, _)| format!("<th>{name}</th>")).concat();
+    let distance = if distance == "–" { String::new() } else { format!(", ΔE {distance} from the set we use") };
     let k = if row.k_d == 0.0 { String::new() } else { format!(" + {} i", index(row.k_d)) };
     format!(
-        "<article>\n<div class=\"swatches\">{}</div>\n<h2>{}</h2>\n<p class=\"kind\">{}, N = {}{k}, Y = {:.4}</p>\n\
+        "<article>\n<div class=\"swatches\">{}</div>\n<h2>{}</h2>\n<p class=\"kind\">{}, N = {}{k}, Y = {:.4}{distance}</p>\n\
          <table><thead><tr><th></th>{head}</tr></thead>\n<tbody>{}{}</tbody></table>\n{}<p class=\"source\">{}</p>\n</article>\n",
         swatches.concat(),
         escape(&row.name),
@@ -118,7 +121,7 @@ fn swatch(name: &str, color: &Color, space: &str) -> String {
         }
         None => hex_from_srgb(color.linear),
     };
-    format!("<span style=\"background:{css}\" title=\"{name}\"></span>")
+    format!("<span role=\"img\" aria-label=\"colour at {name}\" style=\"background:{css}\" title=\"{name}\"></span>")
 }
 
 fn engines(row: &Row) -> String {

@@ -8,6 +8,7 @@ mod verdicts;
 pub use grid::Grid;
 pub use html::Page;
 
+use grid::escape_markdown;
 use serde::Serialize;
 
 /// A form of text.
@@ -51,8 +52,11 @@ pub enum FormatError {
 /// A report in a format, without a newline at its end.
 pub fn text(report: &impl Report, format: Format) -> Result<String, FormatError> {
     let text = match format {
-        Format::Table => with_notes(report.brief().text(), &report.notes(), "", "\n"),
-        Format::Markdown => with_notes(report.brief().markdown(), &report.notes(), "- ", "\n"),
+        Format::Table => with_notes(report.brief().text(), report.notes()),
+        Format::Markdown => {
+            let notes = report.notes().iter().map(|note| format!("- {}", escape_markdown(note))).collect();
+            with_notes(report.brief().markdown(), notes)
+        }
         Format::Csv => report.full().csv()?,
         Format::Json => serde_json::to_string_pretty(report)?,
         Format::Toml => toml::to_string(report)?,
@@ -61,7 +65,6 @@ pub fn text(report: &impl Report, format: Format) -> Result<String, FormatError>
     Ok(text.trim_end().to_owned())
 }
 
-fn with_notes(table: String, notes: &[String], mark: &str, end: &str) -> String {
-    let notes: Vec<_> = notes.iter().map(|note| format!("{mark}{note}{end}")).collect();
-    format!("{table}\n{}", notes.concat())
+fn with_notes(table: String, notes: Vec<String>) -> String {
+    format!("{table}\n{}", notes.join("\n"))
 }

@@ -3,9 +3,8 @@
 use super::{Grid, Page, Report};
 use crate::report::f0::{Color, Labels, Row, Table};
 
-/// Digits after the point where people read, and where programs do.
+/// Digits after the point where people read.
 const BRIEF: usize = 4;
-const FULL: usize = 8;
 
 impl Report for Table {
     fn brief(&self) -> Grid {
@@ -33,6 +32,9 @@ impl Report for Table {
 
     fn notes(&self) -> Vec<String> {
         let mut notes = vec![self.conditions.sentence(), KEY.to_owned()];
+        if self.materials.iter().any(|row| row.f0.encoded == row.f0.linear) {
+            notes.push(format!("{} is a linear space: encoded values are the linear ones", self.conditions.space));
+        }
         if self.materials.iter().any(|row| !row.f0.in_gamut) {
             notes.push("* outside 0…1, printed unclipped; its hex is clipped".into());
         }
@@ -76,7 +78,7 @@ impl Table {
     }
 
     /// ΔE2000 to the set that stands for the material.
-    fn distance(&self, row: &Row) -> String {
+    pub(super) fn distance(&self, row: &Row) -> String {
         let own = self.spread.iter().filter(|spread| spread.name == row.name);
         let set = own.flat_map(|spread| &spread.sets).find(|set| set.ior == row.ior);
         set.map_or("–".into(), |set| format!("{:.2}", set.delta_e))
@@ -94,8 +96,9 @@ fn column(name: &str, value: impl Fn(&Row) -> String + 'static) -> Column {
     (name.to_owned(), Box::new(value))
 }
 
+/// All digits, for programs.
 fn number(value: f64) -> String {
-    format!("{value:.FULL$}")
+    format!("{value:?}")
 }
 
 fn optional<T>(value: Option<T>, text: impl Fn(T) -> String) -> String {
@@ -136,7 +139,7 @@ fn columns() -> Vec<Column> {
         column("ior", |row| row.ior.clone()),
         column("class", |row| row.class.to_owned()),
         scalar("n_d", |row| Some(row.n_d)),
-        column("k_d", |row| format!("{:?}", row.k_d)),
+        scalar("k_d", |row| Some(row.k_d)),
     ];
     columns.extend(color("f0", |row| &row.f0));
     columns.extend(color("f82", |row| &row.f82));
