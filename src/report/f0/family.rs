@@ -11,6 +11,7 @@ use super::{D_LINE_NM, Instrument};
 use crate::spectrum::{Ior, Library, Quantity, SpectrumError};
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
 /// The data sets of the materials of a library.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -21,24 +22,19 @@ pub struct Families {
 
 impl Families {
     /// `primaries` are the sets that materials stand on.
-    pub fn new(primaries: &[String], library: &Library, instrument: &Instrument) -> Result<Self, SpectrumError> {
-        let load = |set: &str| library.ior(set, Path::new(""));
+    pub fn new(primaries: &[Arc<Ior>], library: &Library, instrument: &Instrument) -> Result<Self, SpectrumError> {
         let mut families = Self::default();
-        families.others.extend(primaries.iter().map(|primary| (primary.clone(), Vec::new())));
+        families.others.extend(primaries.iter().map(|primary| (primary.about.name.clone(), Vec::new())));
         for set in library.names(Quantity::Ior) {
-            if families.others.contains_key(&set) {
+            let akin: Vec<_> = primaries.iter().filter(|primary| may_be_same(&primary.about.name, &set)).collect();
+            if families.others.contains_key(&set) || akin.is_empty() {
                 continue;
             }
-            let mut nearest: Option<(f64, &String)> = None;
-            for primary in primaries.iter().filter(|primary| may_be_same(primary, &set)) {
-                let (a, b) = (load(primary)?, load(&set)?);
-                let distance = instrument.difference(instrument.f0(&a), instrument.f0(&b));
-                if is_clear(&a) == is_clear(&b) && nearest.is_none_or(|(least, _)| distance < least) {
-                    nearest = Some((distance, primary));
-                }
-            }
-            if let Some((_, primary)) = nearest {
-                families.others.entry(primary.clone()).or_default().push(set);
+            let ior = library.ior(&set, Path::new(""))?;
+            let distance = |primary: &Ior| instrument.difference(instrument.f0(primary), instrument.f0(&ior));
+            let alike = akin.into_iter().filter(|primary| is_clear(primary) == is_clear(&ior));
+            if let Some(nearest) = alike.min_by(|a, b| distance(a).total_cmp(&distance(b))) {
+                families.others.entry(nearest.about.name.clone()).or_default().push(set);
             }
         }
         Ok(families)
@@ -93,7 +89,8 @@ mod tests {
             "Au-Ag/rioux-2014-au50ag50",
             "Cr/rakic-1998-bb",
         ];
-        let families = Families::new(&primaries.map(str::to_owned), &library, &instrument).unwrap();
+        let primaries = primaries.map(|set| library.ior(set, Path::new("")).unwrap());
+        let families = Families::new(&primaries, &library, &instrument).unwrap();
         assert_eq!(families.of("C/peter-1923"), ["C/peter-1923"]);
         let graphite = ["C/song-2018-hopg-o", "C/djurisic-1999-graphite-o", "C/querry-1985-pyrolytic"];
         assert_eq!(families.of("C/song-2018-hopg-o"), graphite);
