@@ -83,6 +83,7 @@ mod tests {
         let primaries = [
             "C/peter-1923",
             "C/song-2018-hopg-o",
+            "C/song-2018-hopg-e",
             "H2O/daimon-2007-20c",
             "H2O/warren-brandt-2008-ice",
             "Fe2O3/querry-1985-o",

@@ -9,6 +9,20 @@
 //! Reflectances are exact, from vacuum, at every nanometre of 360–830 nm; the sum is that of [`Colorimeter`].
 //! Nothing is clipped, but what says so.
 //!
+//! ```
+//! use spectrel::report::f0::{Conditions, Instrument, Subject, Table, formats};
+//! use spectrel::spectrum::Library;
+//! use std::path::Path;
+//!
+//! let library = Library::default();
+//! let instrument = Instrument::new(Conditions::default(), &library)?;
+//! let ior = library.ior("Au/olmon-2012-evaporated", Path::new(""))?;
+//! let table = Table::new(&[Subject { name: "gold".into(), conductor: true, ior }], &instrument);
+//! assert!((table.materials[0].f0.linear[0] - 1.0428).abs() < 5e-5);
+//! println!("{}", formats::text(&table, formats::Format::Markdown)?);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! [`Colorimeter`]: crate::spectrum::Colorimeter
 
 pub mod check;

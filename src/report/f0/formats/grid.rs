@@ -16,27 +16,24 @@ impl Grid {
 
     /// Columns as wide as their widest cell, two spaces apart; numbers end at the right.
     pub fn text(&self) -> String {
-        let widths = self.widths();
-        let lines: Vec<_> = self.lines().map(|line| self.aligned(line, &widths, "  ").trim_end().to_owned()).collect();
-        lines.join("\n") + "\n"
+        let columns = self.columns();
+        let line = |line: &Vec<String>| aligned(line, &columns, "  ").trim_end().to_owned() + "\n";
+        self.lines().map(line).collect()
     }
 
     /// A table of GitHub Flavored Markdown, readable as text too.
     pub fn markdown(&self) -> String {
-        let escaped = Self {
-            heading: self.heading.iter().map(|cell| escape_markdown(cell)).collect(),
-            rows: self.rows.iter().map(|row| row.iter().map(|cell| escape_markdown(cell)).collect()).collect(),
+        let escape = |line: &Vec<String>| line.iter().map(|cell| escape_markdown(cell)).collect();
+        let escaped = Self { heading: escape(&self.heading), rows: self.rows.iter().map(escape).collect() };
+        let columns = escaped.columns();
+        let rule = |column: &Column| match column.numbers {
+            true => format!("{}:", "-".repeat(column.width - 1)),
+            false => "-".repeat(column.width),
         };
-        let widths: Vec<_> = escaped.widths().into_iter().map(|width| width.max(3)).collect();
-        let rule = |(column, width): (usize, &usize)| match escaped.is_number(column) {
-            true => format!("{}:", "-".repeat(width - 1)),
-            false => "-".repeat(*width),
-        };
-        let rule: Vec<_> = widths.iter().enumerate().map(rule).collect();
-        let mut lines: Vec<_> =
-            escaped.lines().map(|line| format!("| {} |\n", escaped.aligned(line, &widths, " | "))).collect();
-        lines.insert(1, format!("| {} |\n", rule.join(" | ")));
-        lines.concat()
+        let rule: Vec<_> = columns.iter().map(rule).collect();
+        let mut lines: Vec<_> = escaped.lines().map(|line| aligned(line, &columns, " | ")).collect();
+        lines.insert(1, rule.join(" | "));
+        lines.iter().map(|line| format!("| {line} |\n")).collect()
     }
 
     pub fn csv(&self) -> Result<String, FormatError> {
@@ -52,24 +49,35 @@ impl Grid {
         std::iter::once(&self.heading).chain(&self.rows)
     }
 
-    fn widths(&self) -> Vec<usize> {
-        let width = |column: usize| self.lines().filter_map(|line| line.get(column)).map(|cell| width(cell)).max();
-        (0..self.heading.len()).map(|column| width(column).unwrap_or(0)).collect()
-    }
-
-    /// Whether every cell below the heading is a number or nothing, and one is a number.
-    fn is_number(&self, column: usize) -> bool {
-        let mut cells = self.rows.iter().filter_map(|row| row.get(column)).filter(|cell| !is_nothing(cell)).peekable();
-        cells.peek().is_some() && cells.all(|cell| cell.trim_end_matches(['\\', '*']).parse::<f64>().is_ok())
-    }
-
-    fn aligned(&self, line: &[String], widths: &[usize], gap: &str) -> String {
-        let cell = |(column, (cell, size)): (usize, (&String, &usize))| {
-            let room = " ".repeat(size.saturating_sub(width(cell)));
-            if self.is_number(column) { format!("{room}{cell}") } else { format!("{cell}{room}") }
+    fn columns(&self) -> Vec<Column> {
+        let cells = |column: usize| self.lines().filter_map(move |line| line.get(column));
+        let column = |(index, _): (usize, &String)| Column {
+            // A rule of Markdown has three dashes.
+            width: cells(index).map(|cell| width(cell)).fold(3, usize::max),
+            numbers: are_numbers(cells(index).skip(1)),
         };
-        line.iter().zip(widths).enumerate().map(cell).collect::<Vec<_>>().join(gap)
+        self.heading.iter().enumerate().map(column).collect()
     }
+}
+
+/// How a column is set.
+struct Column {
+    width: usize,
+    numbers: bool,
+}
+
+/// Whether every cell is a number or nothing, and one is a number.
+fn are_numbers<'a>(cells: impl Iterator<Item = &'a String>) -> bool {
+    let mut cells = cells.filter(|cell| !is_nothing(cell)).peekable();
+    cells.peek().is_some() && cells.all(|cell| cell.trim_end_matches(['\\', '*']).parse::<f64>().is_ok())
+}
+
+fn aligned(line: &[String], columns: &[Column], gap: &str) -> String {
+    let cell = |(cell, column): (&String, &Column)| {
+        let room = " ".repeat(column.width.saturating_sub(width(cell)));
+        if column.numbers { format!("{room}{cell}") } else { format!("{cell}{room}") }
+    };
+    line.iter().zip(columns).map(cell).collect::<Vec<_>>().join(gap)
 }
 
 fn is_nothing(cell: &str) -> bool {
@@ -114,7 +122,7 @@ mod tests {
     #[test]
     fn what_would_be_markup_is_escaped() {
         let text = grid().markdown();
-        assert!(text.contains("\n| ----------------- | ------: |\n"), "{text}");
+        assert!(text.contains("\n| --------------- | -----: |\n"), "{text}");
         assert!(text.contains("| a\\|b, \"c\" \\<i\\> | 11.5\\* |"), "{text}");
         assert!(grid().csv().unwrap().contains("\n\"a|b, \"\"c\"\" <i>\",11.5*\n"));
     }

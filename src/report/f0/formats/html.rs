@@ -1,7 +1,7 @@
 //! Pages that need no other file: light and dark, readable on a phone.
 
 use super::Grid;
-use crate::report::f0::{Color, Row, Table};
+use crate::report::f0::{Color, Row, Spread, Table};
 use crate::spectrum::{RgbSpace, hex_from_srgb};
 
 /// A page in parts.
@@ -27,6 +27,15 @@ impl Page {
         Self { title: title.to_owned(), paragraphs, body }
     }
 
+    /// The page with a list below.
+    pub fn with_list(mut self, title: &str, items: &[String]) -> Self {
+        if !items.is_empty() {
+            let items: Vec<_> = items.iter().map(|item| format!("<li>{}</li>\n", escape(item))).collect();
+            self.body += &format!("<h2>{}</h2>\n<ul>\n{}</ul>\n", escape(title), items.concat());
+        }
+        self
+    }
+
     pub fn html(&self) -> String {
         let title = escape(&self.title);
         let paragraphs: Vec<_> = self.paragraphs.iter().map(|text| format!("<p>{}</p>\n", escape(text))).collect();
@@ -47,16 +56,13 @@ const STYLE: &str = include_str!("style.css");
 pub(super) fn table(table: &Table) -> Page {
     let cards: Vec<_> =
         table.materials.iter().map(|row| card(row, &table.distance(row), table.conditions.space)).collect();
-    let spread: Vec<_> = table.spread.iter().map(|spread| format!("<li>{}</li>", escape(&spread.sentence()))).collect();
-    let spread = match spread.as_slice() {
-        [] => String::new(),
-        lines => format!("<h2>How far published sets are apart</h2>\n<ul>{}</ul>\n", lines.join("\n")),
-    };
+    let spread: Vec<_> = table.spread.iter().map(Spread::sentence).collect();
     Page {
         title: "F0 of measured materials".into(),
         paragraphs: vec![table.conditions.sentence() + ".", LEGEND.to_owned()],
-        body: format!("<section class=\"cards\">\n{}</section>\n{spread}", cards.concat()),
+        body: format!("<section class=\"cards\">\n{}</section>\n", cards.concat()),
     }
+    .with_list("How far published sets are apart", &spread)
 }
 
 const LEGEND: &str = "Numbers are linear unless they say so, and not clipped; one outside 0…1 is marked, and its swatch is clipped. \

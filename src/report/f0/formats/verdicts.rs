@@ -63,14 +63,19 @@ impl Report for Checked {
     }
 
     fn notes(&self) -> Vec<String> {
-        let mut notes = vec![self.conditions.sentence(), limits()];
-        let told = self.rows.iter().filter(|row| row.outcome != Outcome::Match);
-        notes.extend(told.map(Verdict::sentence));
-        notes
+        [vec![self.conditions.sentence(), limits()], self.findings()].concat()
     }
 
     fn page(&self) -> Page {
-        Page::of_grid("A table of colours against measured data", self.notes(), &self.brief())
+        let paragraphs = vec![self.conditions.sentence() + ".", limits() + "."];
+        Page::of_grid("A table of colours against measured data", paragraphs, &self.brief())
+            .with_list("What does not match as stated", &self.findings())
+    }
+}
+
+impl Checked {
+    fn findings(&self) -> Vec<String> {
+        self.rows.iter().filter(|row| row.outcome != Outcome::Match).map(Verdict::sentence).collect()
     }
 }
 
