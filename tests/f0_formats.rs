@@ -96,7 +96,15 @@ fn all_data_sets_are_rows_with_their_spread() {
     // The choice of set moves copper by up to ΔE 12 or so.
     assert!((8.0..20.0).contains(&number(&spread["widest"]["delta_e"])), "{spread}");
     let yag = json(&["yag", "--all-data-sets"]);
-    assert_eq!(yag["spread"][0]["sets"][0]["counted"], yag["materials"][1]["source"]["covers_visible"]);
+    // A set that begins at 400 nm is told, and not counted.
+    assert_eq!(yag["materials"][1]["source"]["range_nm"][0], 400.0);
+    assert_eq!(
+        (&yag["spread"][0]["sets"][0]["counted"], &yag["spread"][0]["mean_to_primary"]),
+        (&false.into(), &Value::Null)
+    );
+    assert!(
+        said(&["yag", "--all-data-sets"]).contains("not counted, as it ends inside the visible: Y3Al5O12/zelmon-1998")
+    );
 }
 
 #[test]

@@ -98,15 +98,18 @@ impl Spread {
     /// In words.
     pub fn sentence(&self) -> String {
         let Self { name, ior, .. } = self;
-        let (Some(mean), Some(Widest { delta_e, between: [a, b] })) = (self.mean_to_primary, &self.widest) else {
-            return format!("{name}: one data set, {ior}");
-        };
         let left_out: Vec<_> = self.sets.iter().filter(|set| !set.counted).map(|set| set.ior.as_str()).collect();
         let left_out = match left_out.as_slice() {
             [] => String::new(),
-            sets => format!("; not counted, as they end inside the visible: {}", sets.join(", ")),
+            sets => format!("; not counted, as it ends inside the visible: {}", sets.join(", ")),
         };
-        let mean = format!("ΔE2000 {mean:.2} on average from {ior}");
-        format!("{name}: {mean}, {delta_e:.2} at most ({a} and {b}){left_out}")
+        let spread = match (self.mean_to_primary, &self.widest) {
+            (Some(mean), Some(Widest { delta_e, between: [a, b] })) => {
+                format!("ΔE2000 {mean:.2} on average from {ior}, {delta_e:.2} at most ({a} and {b})")
+            }
+            (Some(mean), None) => format!("ΔE2000 {mean:.2} on average from {ior}"),
+            (None, _) => format!("nothing to compare {ior} with"),
+        };
+        format!("{name}: {spread}{left_out}")
     }
 }

@@ -31,7 +31,7 @@ impl Report for Table {
     }
 
     fn notes(&self) -> Vec<String> {
-        let mut notes = vec![self.conditions.sentence(), KEY.to_owned()];
+        let mut notes = vec![self.conditions.sentence(), KEY.to_owned(), MORE.to_owned()];
         if self.materials.iter().any(|row| row.f0.encoded == row.f0.linear) {
             notes.push(format!("{} is a linear space: encoded values are the linear ones", self.conditions.space));
         }
@@ -54,7 +54,8 @@ impl Report for Table {
 }
 
 const KEY: &str = "Red, Green, Blue: linear F0. Tint: F(cos θ = 1/7) against Schlick's, the specular_color of OpenPBR. \
-n_d, k_d: at 587.56 nm. More columns (82°, 1/7, F_avg, encoded, engines, DOI): --format csv or json";
+n_d, k_d: at 587.56 nm";
+const MORE: &str = "More columns (82°, 1/7, F_avg, encoded values, engines, DOI): --format csv, json, toml or html";
 
 impl Table {
     fn has_hex(&self) -> bool {
