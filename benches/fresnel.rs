@@ -59,7 +59,7 @@ fn rgb_at_a_hit_8(bencher: Bencher, model: &RgbModel) {
     let observer = library.observer(Observer::Cie1931).expect("built in");
     let meter = Colorimeter::new(&light.spectrum, &observer, RgbSpace::Srgb, Adaptation::Bradford).expect("light");
     let curve = model.fit(&Target::new(Specimen::in_vacuum(&ior), &meter));
-    let primaries = [0.2, 0.5, 0.3].map(|share| black_box(Lanes::splat(share)));
+    let primaries = [0.2, 0.5, 0.3].map(|share| black_box(Lanes::<8>::splat(share)));
     let cosines = cosines::<8>();
     bencher.bench_local(|| {
         let hit = |cos: &Lanes<8>| Fresnel::Rgb(RgbFresnel { curve: black_box(curve), primaries }).reflectance(cos[0]);

@@ -7,6 +7,26 @@
 //! - `specimen`: an interface as measured; `target`: the colours that RGB models are fitted to; `rgb`: how they act on wavelengths.
 //! - `tabulated`: any model on a specimen, for tables and curves.
 //! - `average`, `quadrature`: sums over angles.
+//!
+//! An F0 table, in linear sRGB under D65:
+//!
+//! ```
+//! use spectrel::fresnel::{Specimen, Target};
+//! use spectrel::spectrum::{Adaptation, Colorimeter, Library, Observer, RgbSpace};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let library = Library::default();
+//! let light = library.illuminant("D65", "".as_ref())?;
+//! let observer = library.observer(Observer::Cie1931)?;
+//! let meter = Colorimeter::new(&light.spectrum, &observer, RgbSpace::Srgb, Adaptation::Bradford)?;
+//! for name in ["Au/olmon-2012-evaporated", "Ag/yang-2015", "Cu/mcpeak-2015"] {
+//!     let ior = library.ior(name, "".as_ref())?;
+//!     let [r, g, b] = Target::new(Specimen::in_vacuum(&ior), &meter).f0();
+//!     println!("{r:.4} {g:.4} {b:.4}  {name}, {} {:?}", ior.about.source.authors, ior.about.source.year);
+//! }
+//! # Ok(())
+//! # }
+//! ```
 
 mod average;
 pub mod conductor;
@@ -14,13 +34,13 @@ pub mod constant;
 pub mod cook_torrance;
 pub mod dielectric;
 mod double;
+mod downhill;
 pub mod exact;
 pub mod f82;
 pub mod f82_spectral;
 pub mod f82_tint;
 pub mod gulbrandsen;
 pub mod lazanyi;
-mod minimum;
 mod model;
 pub mod quadrature;
 mod rgb;

@@ -105,6 +105,16 @@ pub enum Surface {
     Dielectric(Interface),
 }
 
+impl Surface {
+    /// Its Fresnel model, if light is reflected by one.
+    pub fn model(&self) -> Option<FresnelModel> {
+        match self {
+            Self::Black | Self::Diffuse { .. } => None,
+            Self::Conductor { model, .. } | Self::Dielectric(Interface { model, .. }) => Some(*model),
+        }
+    }
+}
+
 /// Pictures on a surface, in place of what [`Surface`] says of it as a whole.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pattern {

@@ -2,6 +2,7 @@
 
 use super::{Inside, Interface, MediumId, Object, Pattern, Scene, Surface};
 use crate::bsdf::conductor::MIRROR_ALPHA;
+use crate::fresnel::FresnelModel;
 use crate::light::Environment;
 use crate::spectrum::Density;
 use serde::Serialize;
@@ -39,6 +40,7 @@ impl Needs {
             immersion(scene),
             contact(scene),
             microfacets(scene),
+            approximations(scene),
             textures(scene),
             light_sampling(scene),
             environment(scene),
@@ -179,6 +181,23 @@ fn microfacets(scene: &Scene) -> Decision {
     match objects_with(scene, rough) {
         names if names.is_empty() => decision("microfacets", false, "no rough conductor or dielectric"),
         names => decision("microfacets", true, format!("rough: {}", listed(&names))),
+    }
+}
+
+fn approximations(scene: &Scene) -> Decision {
+    let of = |surface: &Surface| surface.model().filter(|model| *model != FresnelModel::EXACT);
+    let mut models: Vec<FresnelModel> = scene.surfaces.iter().filter_map(of).collect();
+    let in_rgb = models.iter().any(|model| matches!(model, FresnelModel::Rgb(_)));
+    models.sort_by_key(|model| model.name());
+    models.dedup();
+    let names: Vec<&str> = models.iter().map(|model| model.name()).collect();
+    match names.is_empty() {
+        true => decision("approximate Fresnel", false, "every interface is exact"),
+        false => {
+            let on = listed(&objects_with(scene, |surface| of(surface).is_some()));
+            let spread = if in_rgb { ", RGB spread over wavelengths by three smooth reflectances" } else { "" };
+            decision("approximate Fresnel", true, format!("{} on {on}{spread}", names.join(", ")))
+        }
     }
 }
 

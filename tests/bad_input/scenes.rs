@@ -22,6 +22,27 @@ fn unknown_keys_and_names_come_with_the_nearest() {
 }
 
 #[test]
+fn a_model_that_does_not_apply_is_told_with_the_material() {
+    all_refused_at_mark(&[
+        (
+            material("conductor]\nior = \"Au/olmon-2012-evaporated\"\nfresnel = §\"cook-torrance\""),
+            &["`cook-torrance` does not apply to `m`", "for dielectrics"],
+        ),
+        (
+            format!(
+                "{}\n[[objects]]\nmaterial = §\"silver\"\nshape.sphere = {{ radius = 1 }}",
+                scene_with("[render]\nfresnel = \"schlick-incident\"").replace(SMALL, "")
+            ),
+            &["`schlick-incident` does not apply to `silver`"],
+        ),
+    ]);
+    let outcome = render(shape("shape.sphere = { radius = 1 }"), &[], &["-q", "--fresnel", "schlick-transmitted"]);
+    assert_refused(&outcome, &["`schlick-transmitted` does not apply to `gold`"]);
+    let unknown = render(shape("shape.sphere = { radius = 1 }"), &[], &["-q", "--fresnel", "schlik-rgb"]);
+    assert_refused(&unknown, &["unknown Fresnel model `schlik-rgb`", "did you mean `schlick-rgb`?"]);
+}
+
+#[test]
 fn a_material_of_the_scene_can_be_the_nearest() {
     let scene = "[[objects]]\nmaterial = §\"suade\"\nshape.sphere = { radius = 1 }\n[materials.suede.diffuse]\nreflectance = 0.1";
     refused_at_mark(&scene_with(scene), &[], &["this scene has a material `suede`"]);

@@ -145,12 +145,7 @@ impl Resolver<'_> {
 
     /// What RGB models need, if there are any.
     pub fn rgb_colors(&mut self) -> Result<Option<RgbColors>, SceneError> {
-        let in_rgb = |surface: &Surface| match surface {
-            Surface::Conductor { model, .. } | Surface::Dielectric(Interface { model, .. }) => {
-                matches!(model, FresnelModel::Rgb(_))
-            }
-            Surface::Black | Surface::Diffuse { .. } => false,
-        };
+        let in_rgb = |surface: &Surface| matches!(surface.model(), Some(FresnelModel::Rgb(_)));
         if !self.surfaces.iter().any(in_rgb) {
             return Ok(None);
         }
