@@ -30,7 +30,7 @@ pub struct CurveArgs {
     /// Colours instead of wavelengths: red, green and blue of linear sRGB under D65
     #[arg(long, value_enum, conflicts_with = "wavelengths")]
     space: Option<Space>,
-    /// Angles of incidence, degrees [default: 0-90:1; 0-90:10 as md; 0 over wavelength]
+    /// Angles of incidence, degrees [default: 0-90:1, as md 0-90:10, as svg 0-90:0.25; over wavelength 0]
     #[arg(long, value_name = "LIST")]
     angles: Option<String>,
     /// Cosines of the angles instead, such as 0-1:0.01
@@ -135,6 +135,8 @@ impl CurveArgs {
         let default = match (over, format) {
             (Over::Wavelength, _) => "0",
             (Over::Angle, Format::Md) => "0-90:10",
+            // What rises steeply at a critical angle is drawn as steep.
+            (Over::Angle, Format::Svg) => "0-90:0.25",
             (Over::Angle, _) => "0-90:1",
         };
         let degrees = list(self.angles.as_deref().unwrap_or(default), ANGLES)?;

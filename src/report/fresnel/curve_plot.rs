@@ -13,6 +13,9 @@ pub const MOST_PANELS: usize = 36;
 /// Legends name no more curves of a family than this, evenly chosen.
 const MOST_KEYS: usize = 12;
 
+/// Of the largest reflectance: what falls below is shown with its zero.
+const ZERO_BELOW: f64 = 0.5;
+
 /// What is at one wavelength, in one channel, or at one angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Member {
@@ -144,8 +147,9 @@ impl<'a> Plan<'a> {
         self.models.len() == 1
     }
 
+    /// At normal incidence alone s and p are the same.
     fn polarised(&self) -> bool {
-        self.one_model() && self.rows.iter().any(|row| row.rs.is_some())
+        self.one_model() && self.rows.iter().any(|row| row.rs.is_some() && row.theta_deg > 0.0)
     }
 
     fn style(&self, model: FresnelModel) -> Style {
@@ -163,24 +167,25 @@ impl<'a> Plan<'a> {
 
     /// One material, one model, all members.
     fn family(&self, material: &str) -> Panel {
-        let of = |member: Member, value: fn(&Row) -> Option<f64>| {
-            let rows = self.of(material).filter(move |row| Member::of(row, self.over) == member);
-            self.points(rows, value)
+        let series = self.members.iter().flat_map(|&member| self.polarisations(material, member)).collect();
+        let title = match self.members[..] {
+            [only] => format!("{material}, {}", only.label()),
+            _ => material.to_owned(),
         };
-        let mut series = Vec::new();
-        for &member in &self.members {
-            let style = self.member_style(member);
-            let parts: [(fn(&Row) -> Option<f64>, Dash, f64); 3] = [
-                (|row| row.rs, Dash::Dashed, 1.1),
-                (|row| row.rp, Dash::Dotted, 1.3),
-                (|row| Some(row.r), Dash::Solid, 1.8),
-            ];
-            for (value, dash, width) in parts {
-                series.push(Series { points: of(member, value), style: style.dash(dash).width(width) });
-            }
+        self.panel(title, material, series)
+    }
+
+    /// s, p and their mean, as far as they are known and apart.
+    fn polarisations(&self, material: &str, member: Member) -> Vec<Series> {
+        let rows = || self.of(material).filter(|row| Member::of(row, self.over) == member);
+        let style = self.member_style(member);
+        let mean = Series { points: self.points(rows(), |row| Some(row.r)), style: style.width(1.8) };
+        if !self.polarised() {
+            return vec![mean];
         }
-        series.retain(|series| !series.points.is_empty());
-        self.panel(material.to_owned(), material, series)
+        let s = Series { points: self.points(rows(), |row| row.rs), style: style.dash(Dash::Dashed).width(1.1) };
+        let p = Series { points: self.points(rows(), |row| row.rp), style: style.dash(Dash::Dotted).width(1.3) };
+        vec![s, p, mean]
     }
 
     /// One material, one member, all models.
@@ -220,7 +225,12 @@ impl<'a> Plan<'a> {
             Some(Lane::Channel(_)) => "R in linear sRGB (%)",
             _ => "Reflectance R (%)",
         };
-        let y = Axis::around(name, self.of(material).flat_map(drawn));
+        let values: Vec<f64> = self.of(material).flat_map(drawn).collect();
+        let [low, high] =
+            [values.iter().copied().fold(f64::INFINITY, f64::min), values.iter().copied().fold(0.0, f64::max)];
+        // Where most of the way to 0 is used up, the rest of it belongs to the picture.
+        let zero = (low < ZERO_BELOW * high).then_some(0.0);
+        let y = Axis::around(name, values.into_iter().chain(zero));
         Panel { title, x: self.abscissa(), y, series }
     }
 
@@ -243,7 +253,8 @@ impl<'a> Plan<'a> {
         }
         let every = self.members.len().div_ceil(MOST_KEYS).max(1);
         let member = |&member: &Member| Key { label: member.label(), style: self.member_style(member).width(1.8) };
-        let mut keys: Vec<_> = self.members.iter().step_by(every).map(member).collect();
+        let named: &[Member] = if self.members.len() > 1 { &self.members } else { &[] };
+        let mut keys: Vec<_> = named.iter().step_by(every).map(member).collect();
         if self.polarised() {
             for (label, dash) in
                 [("s-polarised", Dash::Dashed), ("p-polarised", Dash::Dotted), ("unpolarised", Dash::Solid)]

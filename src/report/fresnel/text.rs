@@ -86,18 +86,20 @@ fn cells(rows: &[Row]) -> (Vec<String>, Vec<Vec<String>>) {
     let (first, others) = lights.split_first().map_or(("", &[][..]), |(first, others)| (*first, others));
     let cases: Vec<(&str, i32)> =
         BOUNCES[1..].iter().map(|&bounces| (first, bounces)).chain(others.iter().map(|&light| (light, 1))).collect();
-    let angle = |cos: f64| format!("{:.0}°", libm::acos(cos).to_degrees());
+    // The angle of no error at all is none.
+    let angle =
+        |of: f64, cos: f64| if of > 0.0 { format!("{:.0}°", libm::acos(cos).to_degrees()) } else { "–".into() };
     let line = |row: &Row| {
         let case = |&(light, bounces): &(&str, i32)| row.color(light, bounces).map_or(String::new(), |c| de(c.de_mean));
         let fixed = [
             row.model.to_string(),
             format!("{:.4}", row.max_abs),
-            angle(row.cos_at_max),
+            angle(row.max_abs, row.cos_at_max),
             format!("{:.4}", row.rms),
             format!("{:.4}", row.f_avg_max_abs),
             de(row.de_mean),
             de(row.de_max),
-            angle(row.cos_at_de_max),
+            angle(row.de_max, row.cos_at_de_max),
         ];
         fixed.into_iter().chain(cases.iter().map(case)).chain([format!("{:.1}", row.ns)]).collect()
     };

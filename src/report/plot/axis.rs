@@ -36,7 +36,8 @@ impl Axis {
     pub fn around(label: impl Into<String>, values: impl Iterator<Item = f64>) -> Self {
         let range = wide(extent(values));
         let step = step(range);
-        let range = [(range[0] / step).floor() * step, (range[1] / step).ceil() * step];
+        // A rounding above a tick is no reason for another one.
+        let range = [(range[0] / step + 1e-6).floor() * step, (range[1] / step - 1e-6).ceil() * step];
         Self { ticks: multiples(range, step), ..Self::linear(label, range) }
     }
 
@@ -149,6 +150,7 @@ mod tests {
         let labels = |values: [f64; 2]| Axis::around("", values.into_iter()).labels().join(" ");
         assert_eq!(labels([0.0, 100.0]), "0 20 40 60 80 100");
         assert_eq!(labels([93.1, 99.9]), "92 94 96 98 100");
+        assert_eq!(labels([1e-9, 100.0 + 1e-9]), "0 20 40 60 80 100");
         assert_eq!(labels([-0.3, 0.2]), "−0.3 −0.2 −0.1 0.0 0.1 0.2");
         assert_eq!(labels([380.0, 780.0]), "300 400 500 600 700 800");
         assert_eq!(Axis::linear("", [0.0, 90.0]).every(15.0).labels().join(" "), "0 15 30 45 60 75 90");

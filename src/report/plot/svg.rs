@@ -14,6 +14,7 @@ const BOTTOM: f64 = 44.0;
 const TICK: f64 = 4.0;
 /// Space around the plotted area in which the ends of thick lines and markers still show.
 const BLEED: f64 = 5.0;
+const LEGEND_TOP: f64 = 18.0;
 const LEGEND_LINE: f64 = 20.0;
 const SAMPLE: f64 = 30.0;
 /// Of a character of a sans-serif face, in its size: wider than the mean of any common one.
@@ -174,12 +175,12 @@ fn legend(keys: &[Key], room: f64) -> Legend {
     let mut svg = String::new();
     for (place, key) in keys.iter().enumerate() {
         // Down first, so that what belongs together stands together.
-        let [x, y] = [(place / rows) as f64 * width, (place % rows) as f64 * LEGEND_LINE + 10.0];
+        let [x, y] = [(place / rows) as f64 * width, (place % rows) as f64 * LEGEND_LINE + LEGEND_TOP];
         line(&mut svg, &[[x, y], [x + SAMPLE, y]], key.style);
         mark(&mut svg, [x + SAMPLE / 2.0, y], key.style);
         text(&mut svg, [x + SAMPLE + 8.0, y + 4.0], "start", "", &key.label);
     }
-    Legend { svg, height: if keys.is_empty() { 0.0 } else { rows as f64 * LEGEND_LINE + 12.0 } }
+    Legend { svg, height: if keys.is_empty() { 0.0 } else { rows as f64 * LEGEND_LINE + LEGEND_TOP } }
 }
 
 fn dashes(dash: Dash) -> &'static str {
