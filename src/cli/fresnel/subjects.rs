@@ -87,25 +87,38 @@ impl Models {
         }
     }
 
-    /// Says on standard error which of all models were left out of each material.
+    /// Says on standard error which of all models were left out, a line for each reason.
     pub fn note_left_out(&self, subjects: &[Subject], wavelengths: bool) {
         if *self != Self::All {
             return;
         }
-        for &model in FresnelModel::ALL {
-            let without: Vec<_> = subjects
-                .iter()
-                .filter_map(|subject| check(model, subject, wavelengths).err().map(|why| (subject, why)))
-                .collect();
-            let names: Vec<_> = without.iter().map(|(subject, _)| subject.name.as_str()).collect();
-            if let Some((_, why)) = without.first() {
-                show::note(format_args!("note: `{model}` left out of {}: {}", some(&names), reason(why)));
+        let mut left_out: Vec<(&'static str, Vec<&str>, Vec<&str>)> = Vec::new();
+        for subject in subjects {
+            for &model in FresnelModel::ALL {
+                let Err(why) = check(model, subject, wavelengths) else { continue };
+                let reason = reason(&why);
+                let known = left_out.iter().position(|line| line.0 == reason).unwrap_or_else(|| {
+                    left_out.push((reason, Vec::new(), Vec::new()));
+                    left_out.len() - 1
+                });
+                let (_, models, names) = &mut left_out[known];
+                add(models, model.name());
+                add(names, &subject.name);
             }
+        }
+        for (reason, models, names) in left_out {
+            show::note(format_args!("note: left out for {}: {} ({reason})", some(&names), models.join(", ")));
         }
     }
 }
 
-/// At most four names.
+fn add<'a>(list: &mut Vec<&'a str>, name: &'a str) {
+    if !list.contains(&name) {
+        list.push(name);
+    }
+}
+
+/// Four names, or three and the number of the others.
 fn some(names: &[&str]) -> String {
     match names {
         [first, second, third, _, _, ..] => format!("{first}, {second}, {third} and {} more", names.len() - 3),
@@ -115,9 +128,9 @@ fn some(names: &[&str]) -> String {
 
 fn reason(why: &Unfit) -> &'static str {
     match why {
-        Unfit::Conductor { .. } => "it is for dielectrics",
-        Unfit::DenserSide { .. } => "its curve is that of the rarer side",
-        Unfit::NoWavelengths { .. } => "it knows no wavelengths (--space srgb shows it)",
+        Unfit::Conductor { .. } => "models of dielectrics",
+        Unfit::DenserSide { .. } => "RGB models, made for the rarer side",
+        Unfit::NoWavelengths { .. } => "RGB models: --space srgb shows them",
     }
 }
 

@@ -10,6 +10,9 @@ use crate::report::plot::{Axis, Dash, Figure, Ink, Key, PALETTE, Panel, Series, 
 /// A figure of more panels is one that nobody reads.
 pub const MOST_PANELS: usize = 36;
 
+/// Of more curves s and p are not drawn.
+const MOST_POLARISED: usize = 6;
+
 /// Legends name no more curves of a family than this, evenly chosen.
 const MOST_KEYS: usize = 12;
 
@@ -116,7 +119,9 @@ pub fn figure(rows: &[Row], over: Over) -> Figure {
     } else {
         let panel = |material| plan.members.iter().map(move |&member| (material, member));
         let pairs = plan.materials.iter().flat_map(panel);
-        (plan.members.len().min(3), pairs.map(|(material, member)| plan.comparison(material, member)).collect())
+        // A row for each material, unless it has one panel only.
+        let across = if plan.members.len() == 1 { plan.materials.len() } else { plan.members.len() };
+        (across.min(3), pairs.map(|(material, member)| plan.comparison(material, member)).collect())
     };
     let names: Vec<_> = plan.models.iter().map(|model| model.name()).collect();
     let against = match over {
@@ -147,9 +152,11 @@ impl<'a> Plan<'a> {
         self.models.len() == 1
     }
 
-    /// At normal incidence alone s and p are the same.
+    /// At normal incidence alone s and p are the same, and three curves for each of many members are too many.
     fn polarised(&self) -> bool {
-        self.one_model() && self.rows.iter().any(|row| row.rs.is_some() && row.theta_deg > 0.0)
+        self.one_model()
+            && self.members.len() <= MOST_POLARISED
+            && self.rows.iter().any(|row| row.rs.is_some() && row.theta_deg > 0.0)
     }
 
     fn style(&self, model: FresnelModel) -> Style {

@@ -139,7 +139,7 @@ fn line(out: &mut String, points: &[[f64; 2]], style: Style) {
     if style.width == 0.0 {
         return;
     }
-    let list: Vec<_> = points.iter().map(|[x, y]| format!("{x:.2},{y:.2}")).collect();
+    let list: Vec<_> = bends(points).iter().map(|[x, y]| format!("{x:.2},{y:.2}")).collect();
     let _ = writeln!(
         out,
         "<polyline class=\"line {}\" stroke-width=\"{}\"{} points=\"{}\"/>",
@@ -148,6 +148,33 @@ fn line(out: &mut String, points: &[[f64; 2]], style: Style) {
         dashes(style.dash),
         list.join(" ")
     );
+}
+
+/// Pixels by which a line may miss a point of its curve.
+const STRAIGHT: f64 = 0.02;
+
+/// The points that a line needs: those between are so near to it that nobody sees them.
+fn bends(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let mut kept: Vec<[f64; 2]> = points.first().copied().into_iter().collect();
+    let mut from = 0;
+    for next in 2..points.len() {
+        let near = |&point: &[f64; 2]| distance(point, points[from], points[next]) < STRAIGHT;
+        if !points[from + 1..next].iter().all(near) {
+            from = next - 1;
+            kept.push(points[from]);
+        }
+    }
+    kept.extend(points.last().filter(|_| points.len() > 1));
+    kept
+}
+
+/// Of a point from the line through two others, or from the first where they are one.
+fn distance([x, y]: [f64; 2], [x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> f64 {
+    let length = libm::hypot(x1 - x0, y1 - y0);
+    match length > 0.0 {
+        true => ((x - x0) * (y1 - y0) - (y - y0) * (x1 - x0)).abs() / length,
+        false => libm::hypot(x - x0, y - y0),
+    }
 }
 
 fn mark(out: &mut String, [x, y]: [f64; 2], style: Style) {
@@ -233,6 +260,20 @@ mod tests {
         // Half of 300 pixels up at the left edge, and the upper right corner, inside the bleed.
         assert!(svg.contains("points=\"5.00,155.00 465.00,5.00\""), "{svg}");
         assert_eq!(svg.matches("class=\"mark").count(), 2 + 9);
+    }
+
+    #[test]
+    fn a_line_keeps_its_bends() {
+        let arc = |i: i32| [f64::from(i), 100.0 * libm::sin(f64::from(i) / 100.0)];
+        let points: Vec<_> = (0..=300).map(arc).collect();
+        let kept = bends(&points);
+        assert!(kept.len() < 100 && kept.first() == points.first() && kept.last() == points.last());
+        for pair in kept.windows(2) {
+            let between = points.iter().filter(|point| pair[0][0] < point[0] && point[0] < pair[1][0]);
+            assert!(between.into_iter().all(|&point| distance(point, pair[0], pair[1]) < STRAIGHT));
+        }
+        assert_eq!(bends(&[[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]]).len(), 3);
+        assert_eq!((bends(&[]).len(), bends(&[[1.0, 1.0]]).len(), bends(&[[1.0, 1.0]; 3]).len()), (0, 1, 2));
     }
 
     #[test]
