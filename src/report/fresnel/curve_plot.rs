@@ -96,6 +96,11 @@ fn distinct<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<T> {
     found
 }
 
+/// Panels in a row: three at most, and none alone in the last row if two rows of two hold all.
+fn columns(panels: usize) -> usize {
+    if panels == 4 { 2 } else { panels.min(3) }
+}
+
 /// How the rows divide into panels and curves.
 struct Plan<'a> {
     rows: &'a [Row],
@@ -115,13 +120,13 @@ pub fn panel_count(rows: &[Row], over: Over) -> usize {
 pub fn figure(rows: &[Row], over: Over) -> Figure {
     let plan = Plan::new(rows, over);
     let (across, panels) = if plan.one_model() {
-        (plan.materials.len().min(3), plan.materials.iter().map(|material| plan.family(material)).collect())
+        (columns(plan.materials.len()), plan.materials.iter().map(|material| plan.family(material)).collect())
     } else {
         let panel = |material| plan.members.iter().map(move |&member| (material, member));
         let pairs = plan.materials.iter().flat_map(panel);
         // A row for each material, unless it has one panel only.
         let across = if plan.members.len() == 1 { plan.materials.len() } else { plan.members.len() };
-        (across.min(3), pairs.map(|(material, member)| plan.comparison(material, member)).collect())
+        (columns(across), pairs.map(|(material, member)| plan.comparison(material, member)).collect())
     };
     let names: Vec<_> = plan.models.iter().map(|model| model.name()).collect();
     let against = match over {
