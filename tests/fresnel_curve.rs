@@ -164,6 +164,14 @@ fn other_data_sets_are_other_curves() {
     assert!((other - f0(&["gold"])).abs() > 1e-3);
 }
 
+/// A material is asked once, whatever it is called, and a curve's points stand in order in a figure.
+#[test]
+fn names_and_orders_that_people_mix_up() {
+    assert_eq!(rows(&["gold", "Au", "--angles", "0"]).len(), 3);
+    let figure = |angles: &str| said(&["gold", "--wavelengths", "550", "--angles", angles, "--format", "svg"]);
+    assert_eq!(figure("60,0,80,30"), figure("0,30,60,80"));
+}
+
 #[test]
 fn json_says_what_csv_says() {
     let args = ["gold", "--models", "exact,schlick", "--wavelengths", "550", "--angles", "0,60"];

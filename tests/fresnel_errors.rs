@@ -8,7 +8,7 @@ mod command;
 use command::{folder, refused, run};
 use serde_json::Value;
 use spectrel::fresnel::{FresnelModel, Specimen, Tabulated, Target};
-use spectrel::spectrum::{Adaptation, Colorimeter, Library, Observer, RgbSpace, ciede2000};
+use spectrel::spectrum::{Adaptation, Colorimeter, Library, Observer, RgbSpace, ciede2000, lab_from_xyz};
 use std::path::Path;
 
 /// The primary data of the six materials.
@@ -196,6 +196,29 @@ fn spectra_show_after_two_bounces_and_under_other_lights() {
             "{light}"
         );
     }
+}
+
+/// What the head of `report::fresnel::errors` quotes: gold's F0 under A in an engine that multiplies with the light's RGB and adapts nothing,
+/// seen by an eye adapted to A.
+#[test]
+fn without_adaptation_rgb_is_further_off() {
+    let library = Library::default();
+    let light = library.illuminant("A", Path::new("")).expect("built in");
+    let observer = library.observer(Observer::Cie1931).expect("built in");
+    let meter = Colorimeter::new(&light.spectrum, &observer, RgbSpace::Srgb, Adaptation::None).expect("A has light");
+    let optics = spectrel::scene::optics("gold", None, &library).expect("built in");
+    let specimen = Specimen::in_vacuum(&optics.ior);
+    let white = meter.rgb(|_| 1.0);
+    let engine = d65(&library).rgb(|nm| specimen.reflect(nm, 1.0).r);
+    let engine = std::array::from_fn(|i| engine[i] * white[i]);
+    let lab = |rgb| {
+        let xyz = RgbSpace::Srgb.xyz_from_rgb();
+        lab_from_xyz(xyz.apply(rgb), xyz.apply(white))
+    };
+    let unadapted = ciede2000(lab(engine), lab(meter.rgb(|nm| specimen.reflect(nm, 1.0).r)));
+    let adapted = color(&said(&["gold", "--models", "schlick-rgb"])[0], "A", 1, "de_normal");
+    println!("ΔE {adapted:.3} adapted, {unadapted:.3} not");
+    assert!((unadapted - 6.92).abs() < 0.05 && (adapted - 1.0).abs() < 0.05);
 }
 
 /// The average over the hemisphere against an integration of its own: adaptive, of the exact curve and of Schlick's closed form.

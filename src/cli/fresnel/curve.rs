@@ -13,7 +13,18 @@ use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 use std::path::PathBuf;
 
+const AFTER_HELP: &str = "\
+Examples:
+  spectrel fresnel curve gold -o gold.svg
+  spectrel fresnel curve gold aluminium --space srgb --models exact,schlick-rgb,f82 -o models.svg
+  spectrel fresnel curve silver --over wavelength --angles 0,60
+  spectrel fresnel curve diamond --from inside --wavelengths 550 --models exact,schlick-incident,schlick-transmitted
+
+CSV columns and JSON keys: material, model, lane (nm, or r, g, b), cos_theta, theta_deg, Rs, Rp (empty or null for
+models without polarisation), R.";
+
 #[derive(Debug, Args)]
+#[command(after_help = AFTER_HELP)]
 pub struct CurveArgs {
     /// Materials or data sets of the index of refraction
     #[arg(value_name = "MATERIAL", required = true)]
@@ -44,7 +55,7 @@ pub struct CurveArgs {
     outside: Option<String>,
     #[command(flatten)]
     data: DataArgs,
-    /// [default: what the output file's name ends in, or csv]
+    /// Numbers, a figure, or a short table [default: what the output file's name ends in, or csv]
     #[arg(long, value_enum)]
     format: Option<Format>,
     /// Write to a file instead of standard output

@@ -12,7 +12,19 @@ use rayon::prelude::*;
 use std::collections::HashMap;
 use std::path::PathBuf;
 
+const AFTER_HELP: &str = "\
+JSON: an array of objects with the keys
+  material, ior (the data set), model
+  max_abs, cos_at_max, rms           linear sRGB under D65, over the cosines 0, 0.01 … 1
+  de_mean, de_max, cos_at_de_max     CIEDE2000 of the colours
+  f_avg_max_abs, f_avg_de            of F_avg = 2 ∫ F(c) c dc
+  ns                                 nanoseconds of one evaluation, eight wavelengths, on this machine
+  fitted                             of lazanyi a and alpha, of gulbrandsen g, for r, g and b
+  colors                             for each light (D65, A, FL2) and count of bounces (1, 2, 3, 5):
+                                     light, bounces, de_mean, de_max, cos_at_de_max, de_normal (at 0°)";
+
 #[derive(Debug, Args)]
+#[command(after_help = AFTER_HELP)]
 pub struct ErrorsArgs {
     /// Materials or data sets [default: silver gold copper aluminium iron diamond]
     #[arg(value_name = "MATERIAL")]

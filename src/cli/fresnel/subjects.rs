@@ -26,7 +26,15 @@ impl DataArgs {
     pub fn optics(&self, names: &[String], library: &Library) -> Result<Vec<Optics>, SceneError> {
         let replaced = self.ior.iter().map(|text| replacement(text, names)).collect::<Result<Vec<_>, _>>()?;
         let data = |name: &str| replaced.iter().rev().find(|(of, _)| *of == name).map(|(_, data)| *data);
-        names.iter().map(|name| optics(name, data(name), library)).collect()
+        let mut all: Vec<Optics> = Vec::new();
+        for name in names {
+            let found = optics(name, data(name), library)?;
+            // Whoever says gold and Au means one material.
+            if all.iter().all(|other| other.name != found.name) {
+                all.push(found);
+            }
+        }
+        Ok(all)
     }
 }
 

@@ -180,11 +180,12 @@ impl<'a> Plan<'a> {
     /// One material, one model, all members.
     fn family(&self, material: &str) -> Panel {
         let series = self.members.iter().flat_map(|&member| self.polarisations(material, member)).collect();
-        let title = match self.members[..] {
-            [only] => format!("{material}, {}", only.label()),
-            _ => material.to_owned(),
-        };
-        self.panel(title, material, series)
+        // What all curves have in common stands above them, and not in the legend.
+        let member = if let [only] = self.members[..] { Some(only.label()) } else { None };
+        let model =
+            self.models.first().filter(|&&model| model != FresnelModel::EXACT).map(|model| model.name().to_owned());
+        let title: Vec<_> = [Some(material.to_owned()), member, model].into_iter().flatten().collect();
+        self.panel(title.join(", "), material, series)
     }
 
     /// s, p and their mean, as far as they are known and apart.
@@ -216,7 +217,9 @@ impl<'a> Plan<'a> {
     }
 
     fn points(&self, rows: impl Iterator<Item = &'a Row>, value: fn(&Row) -> Option<f64>) -> Vec<[f64; 2]> {
-        rows.filter_map(|row| Some([self.place(row)?, 100.0 * value(row)?])).collect()
+        let mut points: Vec<_> = rows.filter_map(|row| Some([self.place(row)?, 100.0 * value(row)?])).collect();
+        points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        points
     }
 
     fn place(&self, row: &Row) -> Option<f64> {

@@ -25,14 +25,13 @@ pub struct Subject<'a> {
     pub clear: bool,
 }
 
-static VACUUM: Spectrum = Spectrum::Constant(1.0);
 static LOSSLESS: Spectrum = Spectrum::Constant(0.0);
 
 impl<'a> Subject<'a> {
     /// A material seen from vacuum. Of a clear one the k is not looked at, as rendering does not: it colours what passes, not what is reflected.
     pub fn new(name: String, ior: &'a Ior, clear: bool) -> Self {
-        let k2 = if clear { &LOSSLESS } else { &ior.k };
-        let specimen = Specimen { n1: &VACUUM, n2: &ior.n, k2 };
+        let seen = Specimen::in_vacuum(ior);
+        let specimen = if clear { Specimen { k2: &LOSSLESS, ..seen } } else { seen };
         Self { name, data: ior.about.name.clone(), specimen, clear }
     }
 

@@ -104,7 +104,7 @@ fn cells(rows: &[Row]) -> (Vec<String>, Vec<Vec<String>>) {
         fixed.into_iter().chain(cases.iter().map(case)).chain([format!("{:.1}", row.ns)]).collect()
     };
     let name = |&(light, bounces): &(&str, i32)| if light == first { format!("×{bounces}") } else { light.to_owned() };
-    let fixed = ["Model", "max", "at", "rms", "F_avg", "ΔE", "max", "at"].map(str::to_owned);
+    let fixed = ["Model", "ΔR max", "at", "ΔR rms", "ΔF_avg", "ΔE", "ΔE max", "at"].map(str::to_owned);
     let head = fixed.into_iter().chain(cases.iter().map(name)).chain(["ns".to_owned()]).collect();
     (head, rows.iter().map(line).collect())
 }
@@ -120,9 +120,9 @@ fn by_material(rows: &[Row]) -> impl Iterator<Item = &[Row]> {
 
 /// What the columns of [`errors_table`] mean.
 pub const ERRORS_NOTE: &str = "\
-max, rms, F_avg: difference of linear sRGB reflectance, over cos θ = 0, 0.01 … 1 and averaged over the hemisphere.
-ΔE: CIEDE2000, mean over cos θ, and the largest one; ×2, ×3, ×5: mean after so many bounces at equal angle, under D65;
-A, FL2: mean after one bounce under that light. ns: of one evaluation, eight wavelengths, on this machine.";
+ΔR: of linear sRGB under D65, over cos θ = 0, 0.01 … 1; ΔF_avg: of its average over the hemisphere. ΔE: CIEDE2000,
+the mean over cos θ; ×2, ×3, ×5: the same after so many bounces at equal angle; A, FL2: after one under that light.
+ns: of one evaluation, eight wavelengths, on this machine.";
 
 /// Errors for a terminal, a table for each material.
 pub fn errors_table(rows: &[Row]) -> String {
