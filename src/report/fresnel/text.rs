@@ -120,9 +120,9 @@ fn by_material(rows: &[Row]) -> impl Iterator<Item = &[Row]> {
 
 /// What the columns of [`errors_table`] mean.
 pub const ERRORS_NOTE: &str = "\
-ΔR: of linear sRGB under D65, over cos θ = 0, 0.01 … 1; ΔF_avg: of its average over the hemisphere. ΔE: CIEDE2000,
-the mean over cos θ; ×2, ×3, ×5: the same after so many bounces at equal angle; A, FL2: after one under that light.
-ns: of one evaluation, eight wavelengths, on this machine.";
+ΔR: of linear sRGB under D65, over cos θ = 0, 0.01 … 1; ΔF_avg: of its average over the hemisphere.
+ΔE: CIEDE2000, mean over cos θ; ×2, ×3, ×5: the same after so many bounces at equal angle; A, FL2: after one
+under that light. ns: of one evaluation, eight wavelengths, on this machine.";
 
 /// Errors for a terminal, a table for each material.
 pub fn errors_table(rows: &[Row]) -> String {
