@@ -188,7 +188,7 @@ fn development(scene: &Scene) -> Develop {
 fn metadata(scene: &Scene, identity: u64, film: &Film, developed: &Developed) -> Metadata {
     let settings = &scene.settings;
     let [x0, y0, x1, y1] = settings.crop;
-    Metadata::new()
+    let metadata = Metadata::new()
         .with("version", env!("CARGO_PKG_VERSION"))
         .with("scene", format!("{identity:016x}"))
         .with("size", format!("{}x{}", settings.width, settings.height))
@@ -199,7 +199,15 @@ fn metadata(scene: &Scene, identity: u64, film: &Film, developed: &Developed) ->
         .with("fresnel", settings.fresnel.map_or("by material", FresnelModel::name))
         .with("exposure", format!("{} EV", developed.ev))
         .with("white", &scene.picture.white_balance)
-        .with("observer", &scene.picture.observer.about.name)
+        .with("observer", &scene.picture.observer.about.name);
+    // Only where something was replaced: other pictures keep the bytes that they had.
+    let metadata = with_pairs(metadata, "ior", &settings.ior);
+    with_pairs(metadata, "vary", &settings.vary)
+}
+
+fn with_pairs(metadata: Metadata, key: &str, pairs: &[(String, String)]) -> Metadata {
+    let pairs: Vec<_> = pairs.iter().map(|(material, by)| format!("{material}={by}")).collect();
+    if pairs.is_empty() { metadata } else { metadata.with(key, pairs.join(", ")) }
 }
 
 /// Identifies what is rendered: the texts of scene and materials, and every spectrum that came of them.

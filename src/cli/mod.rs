@@ -87,6 +87,14 @@ impl SceneArgs {
     }
 }
 
+/// An option's `MATERIAL=NAME`.
+fn pair(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=').map(|(material, name)| (material.trim(), name.trim())) {
+        Some((material, name)) if !material.is_empty() && !name.is_empty() => Ok((material.into(), name.into())),
+        _ => Err("expected a material of the scene, `=` and a name, such as gold=silver".into()),
+    }
+}
+
 /// Larger files are no scenes.
 const LARGEST_SCENE: u64 = 64 << 20;
 
