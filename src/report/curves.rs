@@ -1,0 +1,1 @@
+//! Lines in a small SVG: reflectance against the angle, one line a variant.
