@@ -77,7 +77,7 @@ fn crop(text: &str) -> Result<[u32; 4], String> {
     numbers.map_err(|_| expected())?.try_into().map_err(|_| expected())
 }
 
-fn model(name: &str) -> Result<FresnelModel, String> {
+pub fn model(name: &str) -> Result<FresnelModel, String> {
     name.parse().map_err(|error: crate::fresnel::UnknownModel| error.to_string())
 }
 

@@ -16,7 +16,7 @@ pub mod jackknife;
 pub mod timing;
 pub mod view;
 
-
+pub use comparison::Comparison;
 pub use difference::{Difference, Noise, Verdict};
 pub use jackknife::Estimate;
 pub use view::View;
