@@ -48,21 +48,38 @@ fn share(found: &[Difference], holds: impl Fn(&Difference) -> bool) -> f64 {
 #[test]
 fn noise_alone_is_no_difference() {
     let found = trials(200, |random| {
-        let (a, b) = (noisy(&truth(1.0), 0.3, random), noisy(&truth(1.0), 0.3, random));
+        let (a, b) = (noisy(&truth(1.0), 0.1, random), noisy(&truth(1.0), 0.1, random));
         compare(&view(), &a, &b).difference
     });
     // 2.5 % nominally; of 200 trials 5 % is more than two standard deviations above that.
     let alarms = share(&found, |difference| difference.verdict != Verdict::Indistinguishable);
     assert!(alarms <= 0.05, "{alarms}");
+    let size = |of: fn(f64) -> f64| found.iter().map(|found| of(found.delta_e2000.beyond_noise)).sum::<f64>() / 200.0;
+    assert!(size(|value| value).abs() < 0.2 * size(f64::abs), "biased");
     // Where there is nothing, the measured ΔE is that of noise.
     for difference in &found {
         let delta_e = &difference.delta_e2000;
         assert!((delta_e.mean / delta_e.noise - 1.0).abs() < 0.2, "{delta_e:?}");
         assert!((difference.rmse / difference.rmse_noise - 1.0).abs() < 0.25, "{difference:?}");
     }
-    let mean = found.iter().map(|difference| difference.square_delta_e_ab.value).sum::<f64>() / 200.0;
-    let size = found.iter().map(|difference| difference.square_delta_e_ab.value.abs()).sum::<f64>() / 200.0;
-    assert!(mean.abs() < 0.25 * size, "{mean} {size}: biased");
+}
+
+/// As of paths that part at a random choice: the pictures of a replicate are the same but in a few pixels, where they have nothing
+/// to do with each other. No replicate agrees with another about such a difference.
+#[test]
+fn rare_strong_noise_is_no_difference() {
+    let found = trials(200, |random| {
+        let a = noisy(&truth(1.0), 0.3, random);
+        let mut b = a.clone();
+        for xyz in b.iter_mut().flatten() {
+            if random.unit() < 0.03 {
+                *xyz = xyz.map(|c| c * if random.unit() < 0.5 { 0.5 } else { 1.5 });
+            }
+        }
+        compare(&view(), &a, &b).difference
+    });
+    let alarms = share(&found, |difference| difference.verdict != Verdict::Indistinguishable);
+    assert!(alarms <= 0.05, "{alarms}");
 }
 
 #[test]
@@ -101,14 +118,11 @@ fn intervals_hold_the_truth() {
             compare(&view(), &a, &b).difference
         });
         let energy = share(&found, |found| holds(found.energy.interval_95, exact.energy.value));
-        let (delta_e, square) = (exact.delta_e2000.mean, exact.square_delta_e_ab.value);
-        let delta_e = share(&found, |found| holds(found.delta_e2000.corrected.interval_95, delta_e));
-        let square = share(&found, |found| holds(found.square_delta_e_ab.interval_95, square));
-        assert!(energy.min(delta_e).min(square) > 0.9, "{noise}: {energy} {delta_e} {square}");
-        let bias = |of: fn(&Difference) -> f64| {
-            found.iter().map(of).sum::<f64>() / found.len() as f64 - exact.delta_e2000.mean
-        };
-        let (measured, corrected) = (bias(|d| d.delta_e2000.mean), bias(|d| d.delta_e2000.corrected.value));
-        assert!(measured > 0.0 && corrected.abs() < 0.5 * measured, "{noise}: {measured} {corrected}");
+        let truth = exact.delta_e2000.mean;
+        let delta_e = share(&found, |found| holds(found.delta_e2000.interval_95, truth));
+        assert!(energy.min(delta_e) > 0.9, "{noise}: {energy} {delta_e}");
+        let mean = |of: fn(&Difference) -> f64| found.iter().map(of).sum::<f64>() / found.len() as f64;
+        let (beyond, measured) = (mean(|found| found.delta_e2000.beyond_noise), mean(|found| found.delta_e2000.mean));
+        assert!(beyond < 1.01 * truth && truth < 1.01 * measured, "{noise}: {beyond} {truth} {measured}");
     }
 }

@@ -28,27 +28,22 @@ impl Estimate {
     pub fn jackknife(all: f64, without: &[f64]) -> Self {
         let count = without.len() as f64;
         let mean = without.iter().sum::<f64>() / count;
-        let value = all - (count - 1.0) * (mean - all);
-        let spread: f64 = without.iter().map(|theta| (theta - mean) * (theta - mean)).sum();
-        let error = ((count - 1.0) / count * spread).sqrt();
-        let t = T_975[without.len().clamp(2, MOST) - 2];
-        Self { value, interval_95: [value - t * error, value + t * error] }
-    }
-
-    /// The same of a mean distance, which is no less than 0 and which noise makes too large.
-    ///
-    /// Of distances far above the noise the bias goes as 1/R and is removed. A distance of nothing but noise goes as 1/√R, of
-    /// which half is removed: as much again may be left, so the interval reaches down as far.
-    pub fn jackknife_of_distance(all: f64, without: &[f64]) -> Self {
-        let Self { value, interval_95: [low, high] } = Self::jackknife(all, without);
-        let removed = (all - value).max(0.0);
-        Self { value: value.max(0.0), interval_95: [low - removed, high].map(|end| end.max(0.0)) }
+        let (value, reach) = (all - (count - 1.0) * (mean - all), reach(without));
+        Self { value, interval_95: [value - reach, value + reach] }
     }
 
     pub fn excludes_zero(&self) -> bool {
         let [low, high] = self.interval_95;
         low > 0.0 || high < 0.0
     }
+}
+
+/// How far a 95 % interval reaches to both sides, from a number of all replicates but one.
+pub fn reach(without: &[f64]) -> f64 {
+    let count = without.len() as f64;
+    let mean = without.iter().sum::<f64>() / count;
+    let spread: f64 = without.iter().map(|theta| (theta - mean) * (theta - mean)).sum();
+    T_975[without.len().clamp(2, MOST) - 2] * ((count - 1.0) / count * spread).sqrt()
 }
 
 #[cfg(test)]

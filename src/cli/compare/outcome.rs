@@ -201,7 +201,7 @@ fn row(variant: &comparison::Variant) -> [String; 9] {
         return [variant.label.clone(), seconds, ns, empty(), empty(), empty(), empty(), empty(), "reference".into()];
     };
     let delta_e = &difference.delta_e2000;
-    let [low, high] = delta_e.corrected.interval_95;
+    let [low, high] = delta_e.interval_95;
     [
         variant.label.clone(),
         seconds,

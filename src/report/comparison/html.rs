@@ -2,7 +2,7 @@
 
 use super::super::colormap::{DELTA_E, LUMINANCE, Scale};
 use super::super::curves::{curves, stroke};
-use super::super::{Difference, Estimate, Verdict};
+use super::super::{Difference, Verdict};
 use super::words::{escaped, percent, seconds, short};
 use super::{Comparison, Curves, Data, JSON_FILE, Variant};
 use base64::Engine;
@@ -92,7 +92,7 @@ impl Page<'_> {
     fn cards(&self) -> String {
         let card = |(_, variant, difference): (usize, &Variant, &Difference)| {
             let delta_e = &difference.delta_e2000;
-            let [low, high] = delta_e.corrected.interval_95.map(short);
+            let [low, high] = delta_e.interval_95.map(short);
             format!(
                 "<li class=\"card {}\"><h3>{}</h3><p class=\"big\"><span>{}</span> mean ΔE2000</p><p>{}</p>\
                  <p class=\"quiet\">95 % interval {low} – {high}<br>brightness {}</p></li>",
@@ -201,20 +201,20 @@ fn row(variant: &Variant) -> String {
     let Some(difference) = &variant.difference else { return head + "<td colspan=\"8\" class=\"note\">the reference</td></tr>" };
     let delta_e = &difference.delta_e2000;
     let cells = [
-        format!("<b>{}</b><small>{}</small>", short(delta_e.mean), interval(&delta_e.corrected, short)),
+        format!("<b>{}</b><small>{}</small>", short(delta_e.mean), interval(delta_e.interval_95, short)),
         short(delta_e.noise),
         short(delta_e.percentile_95),
         short(delta_e.max),
         format!("{}<small>noise {}</small>", short(difference.rmse), short(difference.rmse_noise)),
         short(difference.rel_mse),
-        format!("{}<small>{}</small>", percent(difference.energy.value), interval(&difference.energy, percent)),
+        format!("{}<small>{}</small>", percent(difference.energy.value), interval(difference.energy.interval_95, percent)),
     ];
     let cells: String = cells.iter().map(|cell| format!("<td>{cell}</td>")).collect();
     format!("{head}{cells}<td class=\"note\">{}</td></tr>", verdict(difference))
 }
 
-fn interval(estimate: &Estimate, shown: fn(f64) -> String) -> String {
-    let [low, high] = estimate.interval_95.map(shown);
+fn interval(ends: [f64; 2], shown: fn(f64) -> String) -> String {
+    let [low, high] = ends.map(shown);
     format!("{low} … {high}")
 }
 

@@ -3,16 +3,17 @@
 //! Replicate r of both pictures has the same random numbers, so that their difference d_r is far less noisy than either picture.
 //! The pictures are the means of their replicates. Of two noisy pictures any distance is too large: noise alone makes one. So
 //!
-//! - the mean ΔE2000 is given as measured; with the jackknife's correction and interval ([`super::jackknife`]); and beside it what
-//!   noise alone gives: the same measure of a picture and itself plus Σ ±d_r / R with as many plus as minus signs, in which
-//!   every true difference is gone and all of the noise is left;
-//! - whether there is a difference at all is asked of products of *different* replicates: with Δ_r = d_r in L*a*b*, linearised at the
-//!   mean of both pictures, Q = Σ_{r≠s} Δ_r·Δ_s / R(R − 1), averaged over the picture, is unbiased for the square of
-//!   the true difference: the U-statistic of W. Hoeffding, "A class of statistics with asymptotically normal distribution", Annals of
-//!   Mathematical Statistics 19 (1948); in neuroimaging the cross-validated distance of A. Walther et al., NeuroImage 137 (2016).
-//!   If both pictures differ by chance only, d_r and −d_r are as likely and the linearisation is the same for both, so that
-//!   the mean of Q is 0 exactly. Its interval is the jackknife's, which without a difference is 1.5 times too wide
-//!   (8 replicates): false alarms are rarer than the nominal 2.5 %.
+//! - the mean ΔE2000 is given as measured, M, and beside it what noise alone gives: the same measure of a picture and itself
+//!   plus Σ ±d_r / R with as many plus as minus signs, in which every true difference is gone and all of the noise is left;
+//! - what is there beyond noise is asked of *different* replicates: T, the mean over the picture and over r of d_r · u₋ᵣ, with u₋ᵣ
+//!   the direction of the mean difference of all others (in the metric of CIEDE2000 about the mean of both pictures).
+//!   d_r and u₋ᵣ are independent: the expectation of T is no more than the true mean ΔE2000, 0 without a difference, and near
+//!   the truth where each pixel's difference is above its noise. This is cross-validation (M. Stone, Journal of the Royal
+//!   Statistical Society B 36 (1974)), as for distances of noisy patterns by A. Walther et al., NeuroImage 137 (2016);
+//! - a mean of lengths is too long, not too short, in expectation (Jensen). So the truth lies between T and M, and the interval is
+//!   from T to M and further by the jackknife's reach of each ([`super::jackknife`]). A picture is different if
+//!   the interval does not touch 0. Without a difference the jackknife's reach is 1.5 times too wide (8 replicates; Efron & Stein
+//!   1981): false alarms are rarer than the nominal 2.5 %.
 //!
 //! Pictures are compared as [`View`] shows them. RMSE and relMSE are of linear sRGB, the mean of (x − r)² and of
 //! (x − r)² / (r² + 0.01) over pixels and channels.
@@ -55,8 +56,6 @@ pub struct Difference {
     pub rel_mse: f64,
     /// Mean luminance over the reference's, less 1.
     pub energy: Estimate,
-    /// Mean square of the true difference in L*a*b*, noise removed; negative values are noise about 0.
-    pub square_delta_e_ab: Estimate,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -67,8 +66,10 @@ pub struct DeltaE {
     pub max: f64,
     /// What noise alone gives in the mean.
     pub noise: f64,
-    /// The mean without the part of noise, as far as the jackknife can tell.
-    pub corrected: Estimate,
+    /// The part of the mean on which independent replicates agree; without a difference it is about 0, of either sign.
+    pub beyond_noise: f64,
+    /// Where the mean of pictures without noise lies, with 95 % confidence.
+    pub interval_95: [f64; 2],
 }
 
 /// How noisy one picture is.
@@ -202,6 +203,9 @@ mod tests {
         assert_eq!((difference.rmse_noise, difference.delta_e2000.noise), (0.0, 0.0));
         assert_eq!(difference.verdict, Verdict::Different);
         assert!(difference.energy.interval_95.iter().all(|end| near(*end, gained)));
+        let delta_e = &difference.delta_e2000;
+        assert!(near(delta_e.beyond_noise, delta_e.mean));
+        assert!(delta_e.interval_95.iter().all(|end| near(*end, delta_e.mean)));
     }
 
     #[test]
@@ -216,7 +220,7 @@ mod tests {
         assert_eq!(difference.verdict, Verdict::Identical);
         let zero = Estimate { value: 0.0, interval_95: [0.0; 2] };
         assert_eq!((difference.delta_e2000.mean, difference.delta_e2000.max, difference.rmse), (0.0, 0.0, 0.0));
-        assert_eq!((difference.energy, difference.square_delta_e_ab), (zero, zero));
+        assert_eq!((difference.energy, difference.delta_e2000.interval_95), (zero, [0.0; 2]));
     }
 
     /// Replicates ±0.1 about 0.5: Σ ± x / 4 = 0.1, of every channel and of one pixel in two.

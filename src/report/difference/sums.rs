@@ -1,9 +1,9 @@
 //! What a comparison adds up, pixel by pixel: see the head of [`super`] for what it is made of.
 
 use super::super::View;
-use super::super::jackknife::Estimate;
+use super::super::jackknife::{Estimate, reach};
 use super::{DeltaE, Difference, Verdict, percentile};
-use crate::spectrum::{Xyz, ciede2000};
+use crate::spectrum::{Xyz, ciede2000, ciede2000_metric};
 
 pub fn mean(replicates: &[Xyz]) -> Xyz {
     sum(replicates).map(|c| c / replicates.len() as f64)
@@ -29,6 +29,16 @@ pub fn sum_of_squares(a: [f64; 3]) -> f64 {
     dot(a, a)
 }
 
+fn length(a: [f64; 3]) -> f64 {
+    dot(a, a).sqrt()
+}
+
+/// The part of a vector that goes along another one; nothing along nothing.
+fn along(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let length = length(b);
+    if length > 0.0 { dot(a, b) / length } else { 0.0 }
+}
+
 fn minus(a: Xyz, b: Xyz) -> Xyz {
     std::array::from_fn(|i| a[i] - b[i])
 }
@@ -51,11 +61,14 @@ impl Pixel {
         if a == b { 0.0 } else { ciede2000(view.lab(a), view.lab(b)) }
     }
 
-    /// The means without replicate r.
-    fn without(&self, r: usize) -> [Xyz; 2] {
-        let (count, all) = (self.reference.len() as f64, [&self.reference, &self.picture]);
-        let rest = |p: usize| std::array::from_fn(|i| (count * self.means[p][i] - all[p][r][i]) / (count - 1.0));
-        [rest(0), rest(1)]
+    /// The differences of all replicates in the metric of CIEDE2000 about the mean of both pictures, scaled so that their mean is as
+    /// long as the ΔE2000 of the pictures, large as it may be.
+    fn steps(&self, view: &View, differences: &[Xyz], delta_e: f64) -> Vec<Xyz> {
+        let middle = mean(&self.means);
+        let metric = ciede2000_metric(view.lab(middle)).after(&view.lab_slope(middle));
+        let length = length(metric.apply(minus(self.means[1], self.means[0])));
+        let scale = if length > 0.0 { delta_e / length } else { 1.0 };
+        differences.iter().map(|difference| metric.apply(*difference).map(|part| part * scale)).collect()
     }
 
     fn differences(&self) -> Vec<Xyz> {
@@ -69,15 +82,17 @@ pub struct Sums {
     pixels: f64,
     delta_e: f64,
     delta_e_noise: f64,
-    /// ΔE2000 of the pictures without replicate r.
+    /// The same without replicate r.
     delta_e_without: Vec<f64>,
+    /// Σ_r d_r · u₋ᵣ.
+    beyond_noise: f64,
+    /// The same without replicate r.
+    beyond_noise_without: Vec<f64>,
     square: f64,
     square_noise: f64,
     relative_square: f64,
     /// Luminances of every replicate, of the reference and of the picture.
     energy: Vec<[f64; 2]>,
-    /// Δ_r · Σ_{s≠r} Δ_s in L*a*b*.
-    products: Vec<f64>,
     /// Whether any replicate differs.
     differs: bool,
 }
@@ -89,11 +104,12 @@ impl Sums {
             delta_e: 0.0,
             delta_e_noise: 0.0,
             delta_e_without: vec![0.0; replicates],
+            beyond_noise: 0.0,
+            beyond_noise_without: vec![0.0; replicates],
             square: 0.0,
             square_noise: 0.0,
             relative_square: 0.0,
             energy: vec![[0.0; 2]; replicates],
-            products: vec![0.0; replicates],
             differs: false,
         }
     }
@@ -109,22 +125,24 @@ impl Sums {
             return [0.0; 2];
         }
         self.differs = true;
-        self.add_products(view, pixel, &differences);
-        self.add_squares(view, pixel, balanced(&differences));
-        for (r, sum) in self.delta_e_without.iter_mut().enumerate() {
-            *sum += Pixel::delta_e(view, pixel.without(r));
-        }
         let delta_e = Pixel::delta_e(view, pixel.means);
         self.delta_e += delta_e;
+        self.add_steps(&pixel.steps(view, &differences, delta_e));
+        self.add_squares(view, pixel, balanced(&differences));
         [delta_e as f32, (pixel.means[1][1] - pixel.means[0][1]) as f32]
     }
 
-    fn add_products(&mut self, view: &View, pixel: &Pixel, differences: &[Xyz]) {
-        let slope = view.lab_slope(mean(&pixel.means));
-        let differences: Vec<_> = differences.iter().map(|difference| slope.apply(*difference)).collect();
-        let total = sum(&differences);
-        for (product, difference) in self.products.iter_mut().zip(differences) {
-            *product += dot(difference, minus(total, difference));
+    fn add_steps(&mut self, steps: &[Xyz]) {
+        let total = sum(steps);
+        for (r, step) in steps.iter().enumerate() {
+            let others = minus(total, *step);
+            self.delta_e_without[r] += length(others) / (steps.len() - 1) as f64;
+            self.beyond_noise += along(*step, others);
+            for (s, other) in steps.iter().enumerate().skip(r + 1) {
+                let rest = minus(others, *other);
+                self.beyond_noise_without[s] += along(*step, rest);
+                self.beyond_noise_without[r] += along(*other, rest);
+            }
         }
     }
 
@@ -143,12 +161,13 @@ impl Sums {
         self.pixels += other.pixels;
         self.delta_e += other.delta_e;
         self.delta_e_noise += other.delta_e_noise;
+        self.beyond_noise += other.beyond_noise;
         self.square += other.square;
         self.square_noise += other.square_noise;
         self.relative_square += other.relative_square;
         self.differs |= other.differs;
         add(&mut self.delta_e_without, &other.delta_e_without);
-        add(&mut self.products, &other.products);
+        add(&mut self.beyond_noise_without, &other.beyond_noise_without);
         for (a, b) in self.energy.iter_mut().zip(&other.energy) {
             *a = [a[0] + b[0], a[1] + b[1]];
         }
@@ -156,35 +175,35 @@ impl Sums {
 
     pub fn difference(&self, delta_e: &[f32]) -> Difference {
         let each = |sum: f64| sum / self.pixels.max(1.0);
-        let without: Vec<f64> = self.delta_e_without.iter().map(|sum| each(*sum)).collect();
-        let square_delta_e_ab = self.square_delta_e_ab();
+        let measured = self.delta_e2000(delta_e);
         Difference {
-            verdict: match (self.differs, square_delta_e_ab.interval_95[0] > 0.0) {
+            verdict: match (self.differs, measured.interval_95[0] > 0.0) {
                 (false, _) => Verdict::Identical,
                 (true, false) => Verdict::Indistinguishable,
                 (true, true) => Verdict::Different,
             },
-            delta_e2000: DeltaE {
-                mean: each(self.delta_e),
-                percentile_95: percentile(delta_e, 0.95),
-                max: delta_e.iter().copied().fold(0.0, f32::max).into(),
-                noise: each(self.delta_e_noise),
-                corrected: Estimate::jackknife_of_distance(each(self.delta_e), &without),
-            },
+            delta_e2000: measured,
             rmse: each(self.square / 3.0).sqrt(),
             rmse_noise: each(self.square_noise / 3.0).sqrt(),
             rel_mse: each(self.relative_square / 3.0),
             energy: self.energy(),
-            square_delta_e_ab,
         }
     }
 
-    /// Q of the head of [`super`]. Without replicate r the pairs with it are gone, each counted twice.
-    fn square_delta_e_ab(&self) -> Estimate {
-        let (count, total) = (self.products.len() as f64, self.products.iter().sum::<f64>());
-        let mean = |sum: f64, replicates: f64| sum / (replicates * (replicates - 1.0) * self.pixels.max(1.0));
-        let without: Vec<_> = self.products.iter().map(|own| mean(total - 2.0 * own, count - 1.0)).collect();
-        Estimate::jackknife(mean(total, count), &without)
+    fn delta_e2000(&self, delta_e: &[f32]) -> DeltaE {
+        let (pixels, count) = (self.pixels.max(1.0), self.energy.len() as f64);
+        let reach = |without: &[f64], terms: f64| reach(&without.iter().map(|sum| sum / (terms * pixels)).collect::<Vec<_>>());
+        let (mean, beyond_noise) = (self.delta_e / pixels, self.beyond_noise / (count * pixels));
+        let low = beyond_noise - reach(&self.beyond_noise_without, count - 1.0);
+        let high = mean + reach(&self.delta_e_without, 1.0);
+        DeltaE {
+            mean,
+            percentile_95: percentile(delta_e, 0.95),
+            max: delta_e.iter().copied().fold(0.0, f32::max).into(),
+            noise: self.delta_e_noise / pixels,
+            beyond_noise,
+            interval_95: [low.max(0.0), high],
+        }
     }
 
     fn energy(&self) -> Estimate {
