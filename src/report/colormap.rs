@@ -101,7 +101,9 @@ mod tests {
 
     #[test]
     fn steps_are_evenly_apart() {
-        for (value, position) in [(-1.0, 0.0), (0.0, 0.0), (0.5, 0.125), (1.0, 0.25), (3.5, 0.625), (10.0, 1.0), (99.0, 1.0)] {
+        for (value, position) in
+            [(-1.0, 0.0), (0.0, 0.0), (0.5, 0.125), (1.0, 0.25), (3.5, 0.625), (10.0, 1.0), (99.0, 1.0)]
+        {
             assert!((DELTA_E.position(value) - position).abs() < 1e-12, "{value}");
         }
         assert_eq!(LUMINANCE.colour(0.0), [247; 3]);

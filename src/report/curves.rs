@@ -75,10 +75,15 @@ impl Axis {
             let (value, [left, _, right, _]) = (f64::from(tenths) / 10.0, FIELD);
             let y = self.y(value);
             let _ = write!(grid, "<path d=\"M{left} {y:.1}H{right}\"/>");
-            let _ = write!(grid, "<text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\">{value:.1}</text>", left - 6.0, y + 4.0);
+            let _ =
+                write!(grid, "<text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\">{value:.1}</text>", left - 6.0, y + 4.0);
         }
         let middle = 0.5 * (FIELD[0] + FIELD[2]);
-        let _ = write!(grid, "<text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\">angle of incidence</text>", HEIGHT - 4.0);
+        let _ = write!(
+            grid,
+            "<text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\">angle of incidence</text>",
+            HEIGHT - 4.0
+        );
         grid + "</g>"
     }
 }

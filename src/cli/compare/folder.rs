@@ -18,7 +18,9 @@ impl Folder {
     pub fn claim(path: &Path, force: bool) -> Result<Self, SceneError> {
         let (shown, folder) = (path.display(), Self { path: path.to_owned() });
         if path.file_name().is_none() {
-            return Err(SceneError::new(format!("{shown} is no name for a report's folder")).help("name a new one with -o DIR"));
+            return Err(
+                SceneError::new(format!("{shown} is no name for a report's folder")).help("name a new one with -o DIR")
+            );
         }
         let parent = folder.parent();
         if !parent.is_dir() {
@@ -35,7 +37,9 @@ impl Folder {
                 return Err(error.help("add --force to replace it, or name another folder with -o DIR"));
             }
             (true, false, _) => {
-                let error = SceneError::new(format!("{shown} is not empty, and what is in it is no report of `spectrel compare`"));
+                let error = SceneError::new(format!(
+                    "{shown} is not empty, and what is in it is no report of `spectrel compare`"
+                ));
                 return Err(error.help("name another folder with -o DIR; --force replaces earlier reports only"));
             }
         }

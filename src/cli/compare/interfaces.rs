@@ -41,7 +41,9 @@ impl Interface {
     /// `None` if the surface is none.
     fn of(scene: &Scene, surface: usize) -> Option<Self> {
         match *scene.surfaces.get(surface)? {
-            Surface::Conductor { n, k, model, .. } => Some(Self { model, sets: indices(scene, n, Some(k)), metal: true }),
+            Surface::Conductor { n, k, model, .. } => {
+                Some(Self { model, sets: indices(scene, n, Some(k)), metal: true })
+            }
             Surface::Dielectric(interface) => {
                 let n = scene.medium(interface.medium).n;
                 Some(Self { model: interface.model, sets: indices(scene, n, None), metal: false })

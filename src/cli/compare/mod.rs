@@ -71,13 +71,7 @@ pub struct CompareArgs {
 
 impl CompareArgs {
     fn overrides(&self) -> Overrides {
-        Overrides {
-            width: self.width,
-            height: self.height,
-            samples: self.spp,
-            seed: self.seed,
-            ..Overrides::default()
-        }
+        Overrides { width: self.width, height: self.height, samples: self.spp, seed: self.seed, ..Overrides::default() }
     }
 
     /// What the scene is called.

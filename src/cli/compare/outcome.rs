@@ -41,7 +41,8 @@ impl Outcome<'_> {
         let developed = self.develop()?;
         let first = &developed[0];
         let (view, reference) = (View::new(first.ev, first.white), self.replicates(0));
-        let compared: Vec<_> = (1..self.variants.len()).map(|i| compare(&view, reference, self.replicates(i))).collect();
+        let compared: Vec<_> =
+            (1..self.variants.len()).map(|i| compare(&view, reference, self.replicates(i))).collect();
         let encode = |i: usize| self.encode(i, &developed[i], i.checked_sub(1).map(|before| &compared[before]));
         let files = (0..developed.len()).into_par_iter().map(encode).collect::<Result<Vec<_>, _>>()?;
         let (pictures, exr) = files.into_iter().unzip();
@@ -70,7 +71,8 @@ impl Outcome<'_> {
         for ((variant, pictures), exr) in comparison.variants.iter().zip(pictures).zip(exr) {
             files.push((variant.files.png.clone(), pictures.picture.clone()));
             files.push((variant.files.exr.clone(), exr.clone()));
-            let maps = [(&variant.files.delta_e_png, &pictures.delta_e), (&variant.files.luminance_png, &pictures.luminance)];
+            let maps =
+                [(&variant.files.delta_e_png, &pictures.delta_e), (&variant.files.luminance_png, &pictures.luminance)];
             for (name, map) in maps {
                 files.extend(name.clone().zip(map.clone()));
             }
@@ -106,7 +108,8 @@ impl Outcome<'_> {
         let development = job::development(&self.scenes[0]);
         let first = self.rendered[0].film.develop(&development).map_err(SceneError::new)?;
         let same = Develop { exposure: Exposure::Ev(first.ev), ..development };
-        let others = self.rendered[1..].par_iter().map(|rendered| rendered.film.develop(&same).map_err(SceneError::new));
+        let others =
+            self.rendered[1..].par_iter().map(|rendered| rendered.film.develop(&same).map_err(SceneError::new));
         let others = others.collect::<Result<Vec<_>, _>>()?;
         let all: Vec<_> = std::iter::once(first).chain(others).collect();
         let mut warnings: Vec<_> = all.iter().flat_map(|developed| developed.report.warnings()).collect();

@@ -52,7 +52,8 @@ fn filled(template: &str, parts: &[(&str, String)]) -> Result<String, super::Pag
     let mut page = pieces.next().unwrap_or_default().to_owned();
     for piece in pieces {
         let (name, rest) = piece.split_once("}}").ok_or_else(|| super::PageError(piece.to_owned()))?;
-        let (_, part) = parts.iter().find(|(known, _)| *known == name).ok_or_else(|| super::PageError(name.to_owned()))?;
+        let (_, part) =
+            parts.iter().find(|(known, _)| *known == name).ok_or_else(|| super::PageError(name.to_owned()))?;
         page += part;
         page += rest;
     }
@@ -121,8 +122,9 @@ impl Page<'_> {
     fn options(&self) -> String {
         let group = |name: &str, key: &str, from: usize| {
             let all = self.comparison.variants.iter().enumerate().skip(from);
-            let options: String =
-                all.map(|(i, variant)| format!("<option value=\"{key}-{i}\">{}</option>", escaped(&variant.label))).collect();
+            let options: String = all
+                .map(|(i, variant)| format!("<option value=\"{key}-{i}\">{}</option>", escaped(&variant.label)))
+                .collect();
             format!("<optgroup label=\"{name}\">{options}</optgroup>")
         };
         group("Pictures", "picture", 0) + &group("ΔE2000", "delta-e", 1) + &group("Luminance", "luminance", 1)
@@ -159,12 +161,30 @@ impl Page<'_> {
         let entries = [
             ("version", format!("spectrel {version}")),
             ("picture", format!("{} × {} pixels", settings.width, settings.height)),
-            ("samples", format!("{} a pixel: {replicates} replicates of {}", settings.samples, settings.samples / replicates.max(1))),
+            (
+                "samples",
+                format!(
+                    "{} a pixel: {replicates} replicates of {}",
+                    settings.samples,
+                    settings.samples / replicates.max(1)
+                ),
+            ),
             ("seed", settings.seed.to_string()),
-            ("exposure", format!("{:.2} EV: white is {} cd/m²", settings.exposure_ev, short(libm::exp2(settings.exposure_ev)))),
+            (
+                "exposure",
+                format!("{:.2} EV: white is {} cd/m²", settings.exposure_ev, short(libm::exp2(settings.exposure_ev))),
+            ),
             ("white", settings.white_balance.clone()),
             ("observer", settings.observer.clone()),
-            ("time", format!("rendering {}, comparing {}, {} threads", seconds(*rendering_seconds), seconds(*report_seconds), settings.threads)),
+            (
+                "time",
+                format!(
+                    "rendering {}, comparing {}, {} threads",
+                    seconds(*rendering_seconds),
+                    seconds(*report_seconds),
+                    settings.threads
+                ),
+            ),
         ];
         entries.iter().map(|(name, value)| format!("<dt>{name}</dt><dd>{}</dd>", escaped(value))).collect()
     }
@@ -198,7 +218,9 @@ fn row(variant: &Variant) -> String {
         escaped(&variant.label),
         seconds(variant.render_seconds)
     );
-    let Some(difference) = &variant.difference else { return head + "<td colspan=\"8\" class=\"note\">the reference</td></tr>" };
+    let Some(difference) = &variant.difference else {
+        return head + "<td colspan=\"8\" class=\"note\">the reference</td></tr>";
+    };
     let delta_e = &difference.delta_e2000;
     let cells = [
         format!("<b>{}</b><small>{}</small>", short(delta_e.mean), interval(delta_e.interval_95, short)),
@@ -207,7 +229,11 @@ fn row(variant: &Variant) -> String {
         short(delta_e.max),
         format!("{}<small>noise {}</small>", short(difference.rmse), short(difference.rmse_noise)),
         short(difference.rel_mse),
-        format!("{}<small>{}</small>", percent(difference.energy.value), interval(difference.energy.interval_95, percent)),
+        format!(
+            "{}<small>{}</small>",
+            percent(difference.energy.value),
+            interval(difference.energy.interval_95, percent)
+        ),
     ];
     let cells: String = cells.iter().map(|cell| format!("<td>{cell}</td>")).collect();
     format!("{head}{cells}<td class=\"note\">{}</td></tr>", verdict(difference))
@@ -231,16 +257,28 @@ fn legend(scale: Scale, shown: fn(f64) -> String) -> String {
     };
     let stops: Vec<String> = (0..=STOPS).map(stop).collect();
     let steps: String = scale.steps.iter().map(|step| format!("<span>{}</span>", shown(*step))).collect();
-    format!("<div class=\"bar\" style=\"background:linear-gradient(90deg,{})\"></div><div class=\"steps\">{steps}</div>", stops.join(","))
+    format!(
+        "<div class=\"bar\" style=\"background:linear-gradient(90deg,{})\"></div><div class=\"steps\">{steps}</div>",
+        stops.join(",")
+    )
 }
 
 fn figure(curves_of: &Curves) -> String {
-    let lines: Vec<_> = curves_of.lines.iter().map(|line| (line.variant, line.label.as_str(), &line.points[..])).collect();
+    let lines: Vec<_> =
+        curves_of.lines.iter().map(|line| (line.variant, line.label.as_str(), &line.points[..])).collect();
     let entry = |line: &super::Line| {
-        format!("<li><svg viewBox=\"0 0 24 8\"><path d=\"M0 4H24\" style=\"{}\"/></svg>{}</li>", stroke(line.variant), escaped(&line.label))
+        format!(
+            "<li><svg viewBox=\"0 0 24 8\"><path d=\"M0 4H24\" style=\"{}\"/></svg>{}</li>",
+            stroke(line.variant),
+            escaped(&line.label)
+        )
     };
     let legend: String = curves_of.lines.iter().map(entry).collect();
-    format!("<figure><figcaption>{}</figcaption>{}<ul class=\"lines\">{legend}</ul></figure>", escaped(&curves_of.title), curves(&lines))
+    format!(
+        "<figure><figcaption>{}</figcaption>{}<ul class=\"lines\">{legend}</ul></figure>",
+        escaped(&curves_of.title),
+        curves(&lines)
+    )
 }
 
 fn source(data: &Data) -> String {
@@ -275,6 +313,10 @@ mod tests {
     #[test]
     fn legends_show_every_step() {
         let legend = legend(LUMINANCE, signed_percent);
-        assert!(legend.contains("<span>−20</span>") && legend.contains("<span>0</span>") && legend.contains("<span>+5</span>"));
+        assert!(
+            legend.contains("<span>−20</span>")
+                && legend.contains("<span>0</span>")
+                && legend.contains("<span>+5</span>")
+        );
     }
 }

@@ -31,7 +31,13 @@ pub fn short(value: f64) -> String {
 
 /// A share in percent with its sign: `+1.23 %`.
 pub fn percent(share: f64) -> String {
-    let sign = if share > 0.0 { "+" } else if share < 0.0 { "−" } else { "" };
+    let sign = if share > 0.0 {
+        "+"
+    } else if share < 0.0 {
+        "−"
+    } else {
+        ""
+    };
     format!("{sign}{} %", short((100.0 * share).abs()))
 }
 
@@ -51,7 +57,8 @@ mod tests {
 
     #[test]
     fn numbers_have_three_digits() {
-        let cases = [(0.0, "0"), (1.2345, "1.23"), (123.4, "123"), (0.012345, "0.0123"), (4567.8, "4568"), (1e-9, "1.0e-9")];
+        let cases =
+            [(0.0, "0"), (1.2345, "1.23"), (123.4, "123"), (0.012345, "0.0123"), (4567.8, "4568"), (1e-9, "1.0e-9")];
         for (value, expected) in cases {
             assert_eq!(short(value), expected);
         }

@@ -192,10 +192,7 @@ mod tests {
         assert!(near(difference.energy.value, gained), "{difference:?}");
         assert!(near(f64::from(luminance[0]), 0.1 * luminances[1]));
         let lab = |rgb| view().lab(xyz(rgb).map(f64::from));
-        let expected = [
-            ciede2000(lab([0.5; 3]), lab([0.5, 0.6, 0.5])),
-            ciede2000(lab([0.2; 3]), lab([0.2, 0.2, 0.5])),
-        ];
+        let expected = [ciede2000(lab([0.5; 3]), lab([0.5, 0.6, 0.5])), ciede2000(lab([0.2; 3]), lab([0.2, 0.2, 0.5]))];
         assert!(delta_e.iter().zip(expected).all(|(found, expected)| near((*found).into(), expected)));
         assert!(near(difference.delta_e2000.mean, 0.5 * (expected[0] + expected[1])));
         assert!(near(difference.delta_e2000.max, expected[0].max(expected[1])));
@@ -210,12 +207,8 @@ mod tests {
 
     #[test]
     fn the_same_is_identical_even_if_noisy() {
-        let noisy = replicates([
-            [[0.5; 3], [0.2; 3]],
-            [[0.4; 3], [0.1; 3]],
-            [[0.6; 3], [0.2; 3]],
-            [[0.3; 3], [0.9; 3]],
-        ]);
+        let noisy =
+            replicates([[[0.5; 3], [0.2; 3]], [[0.4; 3], [0.1; 3]], [[0.6; 3], [0.2; 3]], [[0.3; 3], [0.9; 3]]]);
         let difference = compare(&view(), &noisy, &noisy).difference;
         assert_eq!(difference.verdict, Verdict::Identical);
         let zero = Estimate { value: 0.0, interval_95: [0.0; 2] };
@@ -226,12 +219,8 @@ mod tests {
     /// Replicates ±0.1 about 0.5: Σ ± x / 4 = 0.1, of every channel and of one pixel in two.
     #[test]
     fn noise_is_that_of_the_mean() {
-        let noisy = replicates([
-            [[0.6; 3], [0.2; 3]],
-            [[0.4; 3], [0.2; 3]],
-            [[0.6; 3], [0.2; 3]],
-            [[0.4; 3], [0.2; 3]],
-        ]);
+        let noisy =
+            replicates([[[0.6; 3], [0.2; 3]], [[0.4; 3], [0.2; 3]], [[0.6; 3], [0.2; 3]], [[0.4; 3], [0.2; 3]]]);
         let found = noise(&view(), &noisy);
         assert!(near(found.rmse, (0.1_f64 * 0.1 / 2.0).sqrt()), "{found:?}");
         let lab = |grey: f64| view().lab(xyz([grey; 3]).map(f64::from));

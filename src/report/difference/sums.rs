@@ -192,7 +192,8 @@ impl Sums {
 
     fn delta_e2000(&self, delta_e: &[f32]) -> DeltaE {
         let (pixels, count) = (self.pixels.max(1.0), self.energy.len() as f64);
-        let reach = |without: &[f64], terms: f64| reach(&without.iter().map(|sum| sum / (terms * pixels)).collect::<Vec<_>>());
+        let reach =
+            |without: &[f64], terms: f64| reach(&without.iter().map(|sum| sum / (terms * pixels)).collect::<Vec<_>>());
         let (mean, beyond_noise) = (self.delta_e / pixels, self.beyond_noise / (count * pixels));
         let low = beyond_noise - reach(&self.beyond_noise_without, count - 1.0);
         let high = mean + reach(&self.delta_e_without, 1.0);

@@ -63,7 +63,9 @@ impl Resolver<'_> {
     /// A material of a kind that has no index of refraction cannot be given one.
     pub fn refuse_index(&self, material: &str, kind: &str) -> Result<(), SceneError> {
         let Some(name) = self.substitutes.index(material) else { return Ok(()) };
-        let message = format!("--ior {material}={name}: the material `{material}` is {kind}: it has no index of refraction that `{name}` could replace");
+        let message = format!(
+            "--ior {material}={name}: the material `{material}` is {kind}: it has no index of refraction that `{name}` could replace"
+        );
         Err(SceneError::new(message))
     }
 
