@@ -236,3 +236,43 @@ fn a_render_takes_another_data_set() {
     let mine = picture(&["--ior", "gold=mine.csv"]);
     assert!(mine != own && mine != other);
 }
+
+#[cfg(target_os = "linux")]
+mod interrupted {
+    use super::*;
+    use common::command::command;
+    use std::io::{BufRead, BufReader};
+    use std::process::{Child, Command, Stdio};
+
+    /// Starts a comparison, interrupts it once it has said `until`, and gives its status in the end.
+    fn interrupted(folder: &Path, spp: &str, until: &str) -> Option<i32> {
+        let args = ["compare", "s.toml", "-o", "out", "--models", "exact,schlick", "--replicates", "16", "--spp", spp];
+        let mut child: Child =
+            command(folder, &args).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("spectrel runs");
+        let mut lines = BufReader::new(child.stderr.take().expect("stderr")).lines();
+        let heard = lines.any(|line| line.expect("text").contains(until));
+        assert!(heard, "never said {until}");
+        let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("kill runs");
+        assert!(kill.success());
+        lines.for_each(drop);
+        child.wait().expect("spectrel ends").code()
+    }
+
+    #[test]
+    fn after_enough_replicates_a_report_is_written() {
+        let folder = folder(&[("s.toml", SCENE)]);
+        assert_eq!(interrupted(folder.path(), "4000", "40 %"), Some(0));
+        let json = report(folder.path(), "out");
+        let replicates = json["settings"]["replicate_seeds"].as_array().expect("seeds").len();
+        assert_eq!(json["interrupted"], true);
+        assert!((4..16).contains(&replicates), "{replicates}");
+        assert_eq!(json["settings"]["samples"], 250 * replicates);
+    }
+
+    #[test]
+    fn before_that_nothing_is() {
+        let folder = folder(&[("s.toml", SCENE)]);
+        assert_eq!(interrupted(folder.path(), "16000", "10 %"), Some(130));
+        assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 1);
+    }
+}

@@ -24,7 +24,7 @@ use std::time::Instant;
 use variants::{Variant, variants};
 
 /// The scene that is compared when none is named.
-const DEFAULT_SCENE: (&str, &str) = ("spectrel.toml", include_str!("../../../scenes/compare.toml"));
+const DEFAULT_SCENE: (&str, &str) = ("built-in:scenes/compare.toml", include_str!("../../../scenes/compare.toml"));
 
 #[derive(Debug, Args)]
 pub struct CompareArgs {

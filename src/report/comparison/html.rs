@@ -3,7 +3,7 @@
 use super::super::colormap::{DELTA_E, LUMINANCE, Scale};
 use super::super::curves::{curves, stroke};
 use super::super::{Difference, Verdict};
-use super::words::{escaped, percent, seconds, short};
+use super::words::{escaped, percent, seconds, short, signed};
 use super::{Comparison, Curves, Data, JSON_FILE, Variant};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -32,7 +32,7 @@ pub fn page(comparison: &Comparison, pictures: &[Pictures]) -> Result<String, su
         ("thumbnails", page.thumbnails()),
         ("options", page.options()),
         ("size", format!("{} / {}", comparison.settings.width, comparison.settings.height)),
-        ("legend-delta-e", legend(DELTA_E, |step| short(step))),
+        ("legend-delta-e", legend(DELTA_E, |step| step.to_string())),
         ("legend-luminance", legend(LUMINANCE, signed_percent)),
         ("maps", page.maps()),
         ("rows", page.rows()),
@@ -95,12 +95,16 @@ impl Page<'_> {
             let delta_e = &difference.delta_e2000;
             let [low, high] = delta_e.interval_95.map(short);
             format!(
-                "<li class=\"card {}\"><h3>{}</h3><p class=\"big\"><span>{}</span> mean ΔE2000</p><p>{}</p>\
-                 <p class=\"quiet\">95 % interval {low} – {high}<br>brightness {}</p></li>",
+                "<li class=\"card {}\"><h3>{}</h3><p class=\"big\"><span>{}</span> mean ΔE2000</p>{}\
+                 <p class=\"quiet\">95 % interval {low} … {high}<br>of noise alone {}<br>energy {}</p></li>",
                 class(difference.verdict),
                 escaped(&variant.label),
                 short(delta_e.mean),
-                verdict(difference),
+                match difference.verdict {
+                    Verdict::Different => String::new(),
+                    alike => format!("<p class=\"verdict\">{}</p>", verdict(alike)),
+                },
+                short(delta_e.noise),
                 percent(difference.energy.value)
             )
         };
@@ -143,7 +147,7 @@ impl Page<'_> {
             let _ = write!(
                 maps,
                 "<figure class=\"pair\"><figcaption><b>{label}</b> <span class=\"quiet\">{}</span></figcaption>{}{}</figure>",
-                verdict(difference),
+                verdict(difference.verdict),
                 image("delta-e", "ΔE2000", &pictures.delta_e),
                 image("luminance", "difference of luminance", &pictures.luminance)
             );
@@ -202,12 +206,11 @@ fn class(verdict: Verdict) -> &'static str {
     }
 }
 
-fn verdict(difference: &Difference) -> String {
-    let delta_e = &difference.delta_e2000;
-    match difference.verdict {
-        Verdict::Identical => "identical, sample for sample".into(),
-        Verdict::Indistinguishable => "indistinguishable at this sample count".into(),
-        Verdict::Different => format!("differs; noise alone gives ΔE {}", short(delta_e.noise)),
+fn verdict(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Identical => "identical, sample for sample",
+        Verdict::Indistinguishable => "indistinguishable at this sample count",
+        Verdict::Different => "different",
     }
 }
 
@@ -232,11 +235,11 @@ fn row(variant: &Variant) -> String {
         format!(
             "{}<small>{}</small>",
             percent(difference.energy.value),
-            interval(difference.energy.interval_95, percent)
+            interval(difference.energy.interval_95.map(|end| 100.0 * end), signed)
         ),
     ];
     let cells: String = cells.iter().map(|cell| format!("<td>{cell}</td>")).collect();
-    format!("{head}{cells}<td class=\"note\">{}</td></tr>", verdict(difference))
+    format!("{head}{cells}<td class=\"note\">{}</td></tr>", verdict(difference.verdict))
 }
 
 fn interval(ends: [f64; 2], shown: fn(f64) -> String) -> String {
@@ -245,7 +248,8 @@ fn interval(ends: [f64; 2], shown: fn(f64) -> String) -> String {
 }
 
 fn signed_percent(step: f64) -> String {
-    if step > 0.0 { format!("+{}", step * 100.0) } else { format!("{}", step * 100.0).replace('-', "−") }
+    let percent = libm::round(step * 100.0);
+    if percent > 0.0 { format!("+{percent}") } else { percent.to_string().replace('-', "−") }
 }
 
 /// A bar of a scale's colours with its steps below.

@@ -29,16 +29,21 @@ pub fn short(value: f64) -> String {
     }
 }
 
-/// A share in percent with its sign: `+1.23 %`.
-pub fn percent(share: f64) -> String {
-    let sign = if share > 0.0 {
+/// The same with its sign.
+pub fn signed(value: f64) -> String {
+    let sign = if value > 0.0 {
         "+"
-    } else if share < 0.0 {
+    } else if value < 0.0 {
         "−"
     } else {
         ""
     };
-    format!("{sign}{} %", short((100.0 * share).abs()))
+    format!("{sign}{}", short(value.abs()))
+}
+
+/// A share in percent with its sign: `+1.23 %`.
+pub fn percent(share: f64) -> String {
+    format!("{} %", signed(100.0 * share))
 }
 
 /// Seconds, as long as people want to read.
