@@ -7,7 +7,9 @@ use super::words::{escaped, percent, seconds, short, signed};
 use super::{Comparison, Curves, Data, JSON_FILE, Variant};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use std::ffi::OsStr;
 use std::fmt::Write;
+use std::path::Path;
 
 /// PNG files of a variant.
 #[derive(Clone, Debug)]
@@ -25,7 +27,7 @@ const SCRIPT: &str = include_str!("script.js");
 pub fn page(comparison: &Comparison, pictures: &[Pictures]) -> Result<String, super::PageError> {
     let page = Page { comparison, pictures };
     let parts = [
-        ("title", escaped(&comparison.scene)),
+        ("title", escaped(title(&comparison.scene))),
         ("style", STYLE.to_owned()),
         ("lead", page.lead()),
         ("cards", page.cards()),
@@ -163,6 +165,7 @@ impl Page<'_> {
         let Comparison { settings, rendering_seconds, report_seconds, version, .. } = self.comparison;
         let replicates = settings.replicate_seeds.len() as u64;
         let entries = [
+            ("scene", self.comparison.scene.clone()),
             ("version", format!("spectrel {version}")),
             ("picture", format!("{} × {} pixels", settings.width, settings.height)),
             (
@@ -192,6 +195,11 @@ impl Page<'_> {
         ];
         entries.iter().map(|(name, value)| format!("<dt>{name}</dt><dd>{}</dd>", escaped(value))).collect()
     }
+}
+
+/// The name of a scene's file without folder and ending.
+fn title(scene: &str) -> &str {
+    Path::new(scene).file_stem().and_then(OsStr::to_str).unwrap_or(scene)
 }
 
 fn uri(png: &[u8]) -> String {
