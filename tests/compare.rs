@@ -137,6 +137,17 @@ fn the_page_needs_nothing_else_and_names_stand_for_themselves() {
     assert_eq!(page.matches("src=\"data:image/png;base64,").count(), 3 + 2 * 2);
 }
 
+/// Neither threads nor chance change a number, but those of time.
+#[test]
+fn threads_change_nothing() {
+    let numbers = |threads: &str| {
+        let json = compared(&["--threads", threads, "--spp", "8"]);
+        let variants = json["variants"].as_array().expect("variants");
+        variants.iter().map(|variant| variant["difference"].clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(numbers("1"), numbers("3"));
+}
+
 #[test]
 fn the_same_is_identical() {
     let json = compared(&["--vary", "gold=gold"]);

@@ -92,7 +92,8 @@ impl Scales {
 
 /// √(C⁷ / (C⁷ + 25⁷))
 fn seventh_root_ratio(chroma: f64) -> f64 {
-    let c7 = libm::pow(chroma, 7.0);
+    let cube = chroma * chroma * chroma;
+    let c7 = cube * cube * chroma;
     libm::sqrt(c7 / (c7 + 6_103_515_625.0))
 }
 

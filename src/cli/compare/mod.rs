@@ -164,11 +164,11 @@ fn resolve_all(variants: &[Variant], text: &Text, args: &CompareArgs) -> Result<
     Ok(scenes)
 }
 
-/// Films of all variants and of their newest replicates, and what is kept of every replicate.
+/// Films of all variants and of their newest replicates; what is kept of every replicate, and what is made of all: XYZ, RGB, maps.
 fn check_memory(scenes: &[Scene], plan: &Plan) -> Result<(), SceneError> {
     let window = job::window(scenes[0].settings.crop);
-    let replicates = plan.seeds.len() * size_of::<[f32; 3]>();
-    let a_pixel = 2 * Film::memory_bytes(1, 1) + replicates as u64;
+    let images = (plan.seeds.len() + 3) * size_of::<[f32; 3]>();
+    let a_pixel = 2 * Film::memory_bytes(1, 1) + images as u64;
     memory::check_or(window, a_pixel * scenes.len() as u64, 0, "make it smaller with --width, or name fewer variants")
 }
 
