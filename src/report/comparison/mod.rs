@@ -1,4 +1,4 @@
-//! Variants of a scene beside each other: what is known of them, as numbers for JSON and for the page ([`html`]).
+//! Variants of a scene beside each other: what is known of them, as numbers for JSON and for the page (`html`).
 
 mod html;
 mod words;

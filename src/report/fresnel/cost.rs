@@ -1,6 +1,6 @@
 //! What a model costs at a hit: the time of one evaluation for all lanes, measured here and now.
 //!
-//! The median of [`RUNS`] runs over a thousand angles, as rendering evaluates it: for a conductor the reflectance from the indices, for a clear
+//! The median of `RUNS` runs over a thousand angles, as rendering evaluates it: for a conductor the reflectance from the indices, for a clear
 //! medium the angle of refraction with it. A figure to compare models by on one machine; `benches/fresnel.rs` measures with more care.
 
 use super::Subject;
