@@ -3,6 +3,7 @@
 use super::{SceneArgs, show};
 use crate::geometry::{Mesh, Shape};
 use crate::light::Source;
+use crate::report::markup;
 use crate::scene::describe::ExposureValue;
 use crate::scene::{
     Decision, Interface, MediumId, Needs, Object, Overrides, Scene, SceneError, Surface, listed, resolve,
@@ -68,7 +69,7 @@ pub fn run(args: &InspectArgs) -> Result<(), SceneError> {
     let scene = resolve(args.scene.read()?, &library, &Overrides::default())?;
     let report = report(&scene);
     if args.json {
-        show::answer(serde_json::to_string_pretty(&report).map_err(SceneError::new)?);
+        show::answer(markup::json(&report).map_err(SceneError::new)?);
     } else {
         show::answer(text(&report));
     }

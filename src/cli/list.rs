@@ -1,6 +1,7 @@
 //! `spectrel list`: what scenes can name, and where it comes from.
 
 use super::{LibraryArgs, show};
+use crate::report::markup;
 use crate::scene::describe::{IndexSource, Material, ReflectanceSource};
 use crate::scene::{SceneError, Text};
 use crate::spectrum::{About, Library, Observer, Quantity};
@@ -61,7 +62,7 @@ pub fn run(args: &ListArgs) -> Result<(), SceneError> {
         What::Illuminants => data_sets(&library, Quantity::Illuminant)?,
     };
     if args.json {
-        show::answer(serde_json::to_string_pretty(&entries).map_err(SceneError::new)?);
+        show::answer(markup::json(&entries).map_err(SceneError::new)?);
     } else {
         show::answer(text(args.what, &entries));
     }

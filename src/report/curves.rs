@@ -28,7 +28,7 @@ pub fn curves(lines: &[Line]) -> String {
             svg,
             "<polyline points=\"{places}\" style=\"{}\"><title>{}</title></polyline>",
             stroke(*colour),
-            super::comparison::escaped(label)
+            super::markup::html(label)
         );
     }
     svg + "</svg>"

@@ -6,6 +6,7 @@
 //! - `jackknife`: what independent replicates say of a number's error.
 //! - `comparison`: variants of a scene beside each other, as one HTML page and as JSON.
 //! - `plot`, `curves`, `colormap`: figures in SVG, lines in a small one, numbers as colours.
+//! - `grid`: a table as text, Markdown or CSV; `markup`: texts and values as HTML, Markdown and JSON take them.
 //! - `timing`: what one evaluation costs.
 //!
 //! Numbers in, text and pixels out: this room knows no scene.
@@ -16,12 +17,15 @@ pub mod curves;
 pub mod difference;
 pub mod f0;
 pub mod fresnel;
+mod grid;
 pub mod jackknife;
+pub mod markup;
 pub mod plot;
 pub mod timing;
 pub mod view;
 
 pub use comparison::Comparison;
 pub use difference::{Difference, Noise, Verdict};
+pub use grid::Grid;
 pub use jackknife::Estimate;
 pub use view::View;

@@ -10,7 +10,7 @@ use crate::image::{self, Format, Metadata, Options, png};
 use crate::report::colormap::{DELTA_E, LUMINANCE, Scale};
 use crate::report::comparison::{self, Comparison, Data, Files, HTML_FILE, JSON_FILE, Pictures, Settings};
 use crate::report::difference::{Compared, Image, compare, noise};
-use crate::report::{Verdict, View};
+use crate::report::{Verdict, View, markup};
 use crate::scene::{Scene, SceneError, Text};
 use rayon::prelude::*;
 use std::time::Instant;
@@ -65,7 +65,7 @@ impl Outcome<'_> {
     /// Names and contents of all files.
     pub fn files(&self, report: &Report) -> Result<Vec<(String, Vec<u8>)>, SceneError> {
         let Report { comparison, pictures, exr } = report;
-        let json = comparison.json().map_err(SceneError::new)?;
+        let json = markup::json(comparison).map_err(SceneError::new)?;
         let page = comparison::page(comparison, pictures).map_err(SceneError::new)?;
         let mut files = vec![(JSON_FILE.to_owned(), json.into_bytes()), (HTML_FILE.to_owned(), page.into_bytes())];
         for ((variant, pictures), exr) in comparison.variants.iter().zip(pictures).zip(exr) {

@@ -7,6 +7,7 @@ use crate::cli::show;
 use crate::report::fresnel::curve::{Angle, Grid, Lane, Over, Row, rows};
 use crate::report::fresnel::curve_plot::{MOST_PANELS, figure, panel_count};
 use crate::report::fresnel::{Subject, text};
+use crate::report::markup;
 use crate::scene::{Class, Optics, SceneError};
 use crate::spectrum::Library;
 use clap::{Args, ValueEnum};
@@ -104,9 +105,9 @@ pub fn run(args: &CurveArgs) -> Result<(), SceneError> {
     models.note_left_out(&subjects, args.space.is_none());
     optics.iter().chain(&outside).for_each(|optics| warn_of_range(optics, &grid));
     let text = match format {
-        Format::Csv => text::curve_csv(&rows).map_err(SceneError::new)?,
-        Format::Json => serde_json::to_string_pretty(&rows).map_err(SceneError::new)? + "\n",
-        Format::Md => text::curve_markdown(&rows),
+        Format::Csv => text::curve_full(&rows).csv().map_err(SceneError::new)?,
+        Format::Json => markup::json(&rows).map_err(SceneError::new)? + "\n",
+        Format::Md => text::curve_brief(&rows).markdown(),
         Format::Svg => drawn(&rows, grid.over)?,
     };
     deliver(&text, args.output.as_deref())

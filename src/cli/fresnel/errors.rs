@@ -5,6 +5,7 @@ use super::subjects::{DataArgs, Models, meter, subject};
 use crate::fresnel::FresnelModel;
 use crate::report::fresnel::errors::{Light, Row, rows};
 use crate::report::fresnel::{Subject, cost, text};
+use crate::report::markup;
 use crate::scene::{Class, SceneError, optics};
 use crate::spectrum::Library;
 use clap::{Args, ValueEnum};
@@ -69,8 +70,8 @@ pub fn run(args: &ErrorsArgs) -> Result<(), SceneError> {
     models.note_left_out(&subjects, false);
     let text = match args.format {
         Format::Table => text::errors_table(&rows),
-        Format::Csv => text::errors_csv(&rows).map_err(SceneError::new)?,
-        Format::Json => serde_json::to_string_pretty(&rows).map_err(SceneError::new)? + "\n",
+        Format::Csv => text::errors_full(&rows).csv().map_err(SceneError::new)?,
+        Format::Json => markup::json(&rows).map_err(SceneError::new)? + "\n",
         Format::Md => text::errors_markdown(&rows),
     };
     deliver(&text, args.output.as_deref())

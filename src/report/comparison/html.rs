@@ -2,8 +2,9 @@
 
 use super::super::colormap::{DELTA_E, LUMINANCE, Scale};
 use super::super::curves::{curves, stroke};
+use super::super::markup::html as escaped;
 use super::super::{Difference, Verdict};
-use super::words::{escaped, percent, seconds, short, signed};
+use super::words::{percent, seconds, short, signed};
 use super::{Comparison, Curves, Data, JSON_FILE, Variant};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;

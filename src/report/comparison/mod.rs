@@ -4,7 +4,6 @@ mod html;
 mod words;
 
 pub use html::{Pictures, page};
-pub use words::escaped;
 
 use super::{Difference, Noise};
 use crate::spectrum::About;
@@ -151,11 +150,4 @@ pub struct Line {
     pub label: String,
     /// Degrees, reflectance.
     pub points: Vec<[f64; 2]>,
-}
-
-impl Comparison {
-    /// The text of `report.json`.
-    pub fn json(&self) -> Result<String, serde_json::Error> {
-        serde_json::to_string_pretty(self)
-    }
 }

@@ -2,7 +2,7 @@
 //!
 //! - `curve`: reflectance of a model against angle and wavelength; `curve_plot`: its figure.
 //! - `errors`: how far a model is from the exact equations, in reflectance and in colour; `cost`: what it takes at a hit.
-//! - `text`: CSV, JSON and tables of both.
+//! - `text`: tables of both.
 
 pub mod cost;
 pub mod curve;

@@ -1,6 +1,7 @@
 //! Draws a figure: sizes, style sheet, panels, legend.
 
 use super::{Axis, Dash, Figure, Ink, Key, Marker, Panel, Series, Style};
+use crate::report::markup::html as escaped;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -226,10 +227,6 @@ fn hex([r, g, b]: [u8; 3]) -> String {
 /// The same wherever the ink is the same, so that two figures in a page agree.
 fn class(ink: Ink) -> String {
     format!("ink-{}-{}", &hex(ink.light)[1..], &hex(ink.dark)[1..])
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 #[cfg(test)]
