@@ -5,7 +5,7 @@
 //! - `view`: radiances as a display shows them; `difference`: two pictures compared, replicate by replicate.
 //! - `jackknife`: what independent replicates say of a number's error.
 //! - `comparison`: variants of a scene beside each other, as one HTML page and as JSON.
-//! - `plot`, `curves`, `colormap`: figures in SVG, lines in a small one, numbers as colours.
+//! - `plot`, `colormap`: figures in SVG, numbers as colours.
 //! - `grid`: a table as text, Markdown or CSV; `markup`: texts and values as HTML, Markdown and JSON take them.
 //! - `timing`: what one evaluation costs.
 //!
@@ -13,7 +13,6 @@
 
 pub mod colormap;
 pub mod comparison;
-pub mod curves;
 pub mod difference;
 pub mod f0;
 pub mod fresnel;
