@@ -4,8 +4,9 @@ use super::deliver;
 use super::subjects::{DataArgs, Models, meter, subject};
 use crate::fresnel::FresnelModel;
 use crate::report::fresnel::errors::{Light, Row, rows};
-use crate::report::fresnel::{Subject, cost, text};
+use crate::report::fresnel::{Subject, text};
 use crate::report::markup;
+use crate::report::timing::{CAREFUL, nanoseconds};
 use crate::scene::{Class, SceneError, optics};
 use crate::spectrum::Library;
 use clap::{Args, ValueEnum};
@@ -98,7 +99,7 @@ fn errors(subjects: &[Subject], models: &Models, lights: &[Light]) -> Result<Vec
     let mut costs: HashMap<(FresnelModel, bool), f64> = HashMap::new();
     for (subject, models) in subjects.iter().zip(&chosen) {
         for &model in models {
-            let time = || cost::nanoseconds(model, subject, &lights[0].meter);
+            let time = || nanoseconds(&subject.ready(model, &lights[0].meter), CAREFUL);
             costs.entry((model, subject.clear)).or_insert_with(time);
         }
     }
