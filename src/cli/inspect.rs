@@ -68,12 +68,7 @@ pub fn run(args: &InspectArgs) -> Result<(), SceneError> {
     let library = args.scene.library.open()?;
     let scene = resolve(args.scene.read()?, &library, &Overrides::default())?;
     let report = report(&scene);
-    if args.json {
-        show::answer(markup::json(&report).map_err(SceneError::new)?);
-    } else {
-        show::answer(text(&report));
-    }
-    Ok(())
+    show::answer(if args.json { markup::json(&report).map_err(SceneError::new)? } else { text(&report) })
 }
 
 fn report(scene: &Scene) -> Report {

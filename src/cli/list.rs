@@ -61,12 +61,7 @@ pub fn run(args: &ListArgs) -> Result<(), SceneError> {
         }
         What::Illuminants => data_sets(&library, Quantity::Illuminant)?,
     };
-    if args.json {
-        show::answer(markup::json(&entries).map_err(SceneError::new)?);
-    } else {
-        show::answer(text(args.what, &entries));
-    }
-    Ok(())
+    show::answer(if args.json { markup::json(&entries).map_err(SceneError::new)? } else { text(args.what, &entries) })
 }
 
 fn data_sets(library: &Library, quantity: Quantity) -> Result<Vec<Entry>, SceneError> {

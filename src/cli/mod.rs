@@ -13,6 +13,7 @@ mod preview;
 mod progress;
 mod render;
 mod show;
+mod tables;
 mod watch;
 
 use crate::scene::{SceneError, Text};

@@ -1,11 +1,28 @@
 //! What people read: answers on standard output, everything else on standard error.
 
+use crate::image::atomic;
+use crate::scene::SceneError;
 use std::fmt::Display;
 use std::io::{self, Write};
+use std::path::Path;
 
-/// An answer; a reader that has closed the pipe has seen enough.
-pub fn answer(text: impl Display) {
-    let _ = writeln!(io::stdout().lock(), "{text}");
+/// An answer of whole lines; a reader that has closed the pipe has seen enough.
+pub fn answer(text: impl AsRef<str>) -> Result<(), SceneError> {
+    let mut out = io::stdout().lock();
+    match writeln!(out, "{}", text.as_ref().trim_end_matches('\n')).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(SceneError::new(format!("cannot write the answer: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// An answer to a file, or to standard output.
+pub fn answer_to(output: Option<&Path>, text: &str) -> Result<(), SceneError> {
+    match output {
+        Some(path) => atomic::write(path, text.as_bytes()).map_err(SceneError::new),
+        None => answer(text),
+    }
 }
 
 pub fn note(text: impl Display) {

@@ -7,6 +7,7 @@
 //! - `comparison`: variants of a scene beside each other, as one HTML page and as JSON.
 //! - `plot`, `colormap`: figures in SVG, numbers as colours.
 //! - `grid`: a table as text, Markdown or CSV; `markup`: texts and values as HTML, Markdown and JSON take them.
+//! - `table`: tables of others, read.
 //! - `timing`: what one evaluation costs.
 //!
 //! Numbers in, text and pixels out: this room knows no scene.
@@ -20,6 +21,7 @@ mod grid;
 pub mod jackknife;
 pub mod markup;
 pub mod plot;
+pub mod table;
 pub mod timing;
 pub mod view;
 

@@ -156,8 +156,7 @@ pub fn run(args: &CompareArgs) -> Result<(), SceneError> {
         };
         let report = outcome.compare(rendering, interrupt.pressed())?;
         folder.write(&outcome.files(&report)?)?;
-        outcome.tell(&report, started.elapsed().as_secs_f64());
-        Ok(())
+        outcome.tell(&report, started.elapsed().as_secs_f64())
     })
 }
 

@@ -81,19 +81,20 @@ impl Outcome<'_> {
     }
 
     /// What a person wants to know at once; `seconds` is what all but the renders took.
-    pub fn tell(&self, report: &Report, seconds: f64) {
+    pub fn tell(&self, report: &Report, seconds: f64) -> Result<(), SceneError> {
         if self.args.quiet {
-            return;
+            return Ok(());
         }
         let comparison = &report.comparison;
         let names = ["variant", "render s", "ns", "mean ΔE", "95 % interval", "noise ΔE", "max ΔE", "energy %", ""];
-        show::answer(show::table(names, comparison.variants.iter().map(row)));
+        show::answer(show::table(names, comparison.variants.iter().map(row)))?;
         let rendering = comparison.rendering_seconds;
         show::note(format_args!(
             "rendering {rendering:.1} s, report {seconds:.2} s ({:.1} %)",
             100.0 * seconds / rendering
         ));
         show::note(format_args!("wrote {}", self.args.folder().join(HTML_FILE).display()));
+        Ok(())
     }
 
     fn replicates(&self, variant: usize) -> &[Image] {

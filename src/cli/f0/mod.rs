@@ -97,8 +97,7 @@ pub fn run(args: &F0Args) -> Result<(), SceneError> {
 
 /// Everything is computed by now: half a table looks like a whole one.
 fn answer(report: &impl Report, format: FormatName) -> Result<(), SceneError> {
-    show::answer(formats::text(report, format.into()).map_err(SceneError::new)?);
-    Ok(())
+    show::answer(formats::text(report, format.into()).map_err(SceneError::new)?)
 }
 
 impl F0Args {

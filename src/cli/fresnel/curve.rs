@@ -1,6 +1,5 @@
 //! `spectrel fresnel curve`: reflectance against angle or wavelength, as numbers or as a figure.
 
-use super::deliver;
 use super::numbers::{Kind, list};
 use super::subjects::{DataArgs, Models, meter, subject};
 use crate::cli::show;
@@ -110,7 +109,7 @@ pub fn run(args: &CurveArgs) -> Result<(), SceneError> {
         Format::Md => text::curve_brief(&rows).markdown(),
         Format::Svg => drawn(&rows, grid.over)?,
     };
-    deliver(&text, args.output.as_deref())
+    show::answer_to(args.output.as_deref(), &text)
 }
 
 impl CurveArgs {

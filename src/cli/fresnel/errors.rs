@@ -1,7 +1,7 @@
 //! `spectrel fresnel errors`: how far each model is from the exact one.
 
-use super::deliver;
 use super::subjects::{DataArgs, Models, meter, subject};
+use crate::cli::show;
 use crate::fresnel::FresnelModel;
 use crate::report::fresnel::errors::{Light, Row, rows};
 use crate::report::fresnel::{Subject, text};
@@ -75,7 +75,7 @@ pub fn run(args: &ErrorsArgs) -> Result<(), SceneError> {
         Format::Json => markup::json(&rows).map_err(SceneError::new)? + "\n",
         Format::Md => text::errors_markdown(&rows),
     };
-    deliver(&text, args.output.as_deref())
+    show::answer_to(args.output.as_deref(), &text)
 }
 
 impl ErrorsArgs {
