@@ -242,7 +242,7 @@ fn what_cannot_be_drawn_or_asked_is_told() {
         (&["gold", "--outside", "watr"], &["did you mean `water`?"]),
         (&["gold", "--ior", "gold=Au/jonson"], &["did you mean `Au/johnson-christy-1972`?"]),
         (&["gold", "--ior", "silver=Ag/yang-2015"], &["`silver`", "not among", "gold"]),
-        (&["gold", "--ior", "gold"], &["NAME=DATASET"]),
+        (&["gold", "--ior", "gold"], &["MATERIAL=DATASET"]),
         (&["gold", "--wavelengths", "380-780"], &["needs a step"]),
         (&["gold", "--angles", "0-100:10"], &["100 is not within 0 … 90"]),
         (&["gold", "--space", "srgb", "--over", "wavelength"], &["--space srgb"]),

@@ -1,7 +1,7 @@
 //! Colours of others against all data sets of the library.
 
 use super::F0Args;
-use super::subjects::{families, of_library, replace};
+use super::subjects::{families, of_library};
 use crate::cli::tables;
 use crate::report::f0::check::{Checked, Claim, Known, judge};
 use crate::report::f0::claims;
@@ -14,7 +14,7 @@ use std::path::Path;
 fn known(args: &F0Args, library: &Library, instrument: &Instrument) -> Result<Vec<(Known, Class)>, SceneError> {
     let mut materials = of_library(library)?;
     let families = families(library, instrument)?;
-    replace(&mut materials, &args.ior, library)?;
+    args.data.replace(&mut materials, library)?;
     let known = |optics: Optics| {
         let own = &optics.ior.about.name;
         let candidate = |set: String| {
