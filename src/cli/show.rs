@@ -1,7 +1,8 @@
 //! What people read: answers on standard output, everything else on standard error.
 
 use crate::image::atomic;
-use crate::scene::SceneError;
+use crate::scene::{DataSet, SceneError};
+use crate::spectrum::About;
 use std::fmt::Display;
 use std::io::{self, Write};
 use std::path::Path;
@@ -58,6 +59,19 @@ pub fn table<const N: usize>(names: [&str; N], rows: impl IntoIterator<Item = [S
 pub fn section(title: impl Display, lines: &str) -> String {
     let lines: Vec<_> = lines.lines().map(|line| format!("\n  {line}")).collect();
     format!("{title}{}", lines.concat())
+}
+
+/// Every data set of these once, in the order of their first use, with all that use it.
+pub fn data_sets<'a>(all: impl IntoIterator<Item = &'a DataSet>) -> Vec<(&'a About, Vec<String>)> {
+    let mut found: Vec<(&About, Vec<String>)> = Vec::new();
+    for DataSet { used_by, about } in all {
+        match found.iter_mut().find(|(known, _)| known.name == about.name && known.range_nm == about.range_nm) {
+            Some((_, users)) if users.contains(used_by) => {}
+            Some((_, users)) => users.push(used_by.clone()),
+            None => found.push((about, vec![used_by.clone()])),
+        }
+    }
+    found
 }
 
 /// Wavelengths that data cover.

@@ -46,6 +46,7 @@ impl Outcome<'_> {
         let encode = |i: usize| self.encode(i, &developed[i], i.checked_sub(1).map(|before| &compared[before]));
         let files = (0..developed.len()).into_par_iter().map(encode).collect::<Result<Vec<_>, _>>()?;
         let (pictures, exr) = files.into_iter().unzip();
+        let data = show::data_sets(self.scenes.iter().flat_map(|scene| &scene.data));
         let mut comparison = Comparison {
             version: env!("CARGO_PKG_VERSION").into(),
             scene: self.text.path.display().to_string(),
@@ -55,7 +56,7 @@ impl Outcome<'_> {
             rendering_seconds,
             report_seconds: 0.0,
             interrupted,
-            data: self.data(),
+            data: data.into_iter().map(|(about, used_by)| Data::new(about, used_by)).collect(),
             curves: curves(self.scenes, &self.labels()),
         };
         comparison.report_seconds = started.elapsed().as_secs_f64();
@@ -179,20 +180,6 @@ impl Outcome<'_> {
             files: Files::new(&variant.id, i == 0),
         };
         self.variants.iter().enumerate().map(of).collect()
-    }
-
-    /// Every data set of any variant once, with all that use it.
-    fn data(&self) -> Vec<Data> {
-        let mut all: Vec<Data> = Vec::new();
-        for used in self.scenes.iter().flat_map(|scene| &scene.data) {
-            let about = &used.about;
-            match all.iter_mut().find(|data| data.name == about.name && data.range_nm == about.range_nm) {
-                Some(data) if data.used_by.contains(&used.used_by) => {}
-                Some(data) => data.used_by.push(used.used_by.clone()),
-                None => all.push(Data::new(about, &used.used_by)),
-            }
-        }
-        all
     }
 }
 

@@ -119,11 +119,11 @@ pub struct Data {
 }
 
 impl Data {
-    pub fn new(about: &About, used_by: &str) -> Self {
+    pub fn new(about: &About, used_by: Vec<String>) -> Self {
         let source = &about.source;
         Self {
             name: about.name.clone(),
-            used_by: vec![used_by.to_owned()],
+            used_by,
             title: source.title.clone(),
             authors: source.authors.clone(),
             journal: source.journal.clone(),

@@ -53,7 +53,7 @@ impl<'a> Subject<'a> {
     }
 
     /// Whether light comes from the denser of two clear media, by n at 550 nm.
-    pub fn from_the_denser_side(&self) -> bool {
+    fn from_the_denser_side(&self) -> bool {
         let [n1, n2, _] = self.specimen.indices(550.0);
         self.clear && n1 > n2
     }
