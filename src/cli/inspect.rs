@@ -8,7 +8,7 @@ use crate::scene::describe::ExposureValue;
 use crate::scene::{
     Decision, Interface, MediumId, Needs, Object, Overrides, Scene, SceneError, Surface, listed, resolve,
 };
-use crate::spectrum::About;
+use crate::spectrum::{About, citation};
 use clap::Args;
 use serde::Serialize;
 
@@ -188,7 +188,7 @@ fn data_row(data: &DataReport) -> [String; 5] {
         data.name.clone(),
         format!("{}{gap}", show::range_nm(data.range_nm)),
         format!("confidence {}", data.confidence),
-        show::source(&data.authors, data.year),
+        citation(&data.authors, data.year),
         format!("for {}", listed(&users)),
     ]
 }

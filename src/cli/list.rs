@@ -4,7 +4,7 @@ use super::{LibraryArgs, show};
 use crate::report::markup;
 use crate::scene::describe::{IndexSource, Material, ReflectanceSource};
 use crate::scene::{SceneError, Text};
-use crate::spectrum::{About, Library, Observer, Quantity};
+use crate::spectrum::{About, Library, Observer, Quantity, citation};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use std::path::Path;
@@ -133,7 +133,7 @@ fn material(library: &Library, name: &str) -> Result<Entry, SceneError> {
 }
 
 fn text(what: What, entries: &[Entry]) -> String {
-    let source = |entry: &Entry| show::source(&entry.authors, entry.year);
+    let source = |entry: &Entry| citation(&entry.authors, entry.year);
     let range = |entry: &Entry| show::range_nm(entry.range_nm);
     match what {
         What::Materials => {

@@ -78,9 +78,3 @@ pub fn data_sets<'a>(all: impl IntoIterator<Item = &'a DataSet>) -> Vec<(&'a Abo
 pub fn range_nm(range: Option<(f64, f64)>) -> String {
     range.map_or("everywhere".into(), |(first, last)| format!("{first:.0}–{last:.0} nm"))
 }
-
-/// Who published data, in short.
-pub fn source(authors: &str, year: Option<i32>) -> String {
-    let first_author = authors.split([',', ';']).next().unwrap_or_default();
-    year.map_or(first_author.to_owned(), |year| format!("{first_author} {year}"))
-}

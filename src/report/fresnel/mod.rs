@@ -53,7 +53,7 @@ impl<'a> Subject<'a> {
     }
 
     /// Whether light comes from the denser of two clear media, by n at 550 nm.
-    fn from_the_denser_side(&self) -> bool {
+    fn seen_from_the_denser_side(&self) -> bool {
         let [n1, n2, _] = self.specimen.indices(550.0);
         self.clear && n1 > n2
     }
@@ -79,7 +79,7 @@ pub fn check(model: FresnelModel, subject: &Subject, wavelengths: bool) -> Resul
     match () {
         () if model.dielectrics_only() && !subject.clear => Err(Unfit::Conductor { model, name: name() }),
         () if rgb && wavelengths => Err(Unfit::NoWavelengths { model }),
-        () if rgb && subject.from_the_denser_side() => Err(Unfit::DenserSide { model, name: name() }),
+        () if rgb && subject.seen_from_the_denser_side() => Err(Unfit::DenserSide { model, name: name() }),
         () => Ok(()),
     }
 }
