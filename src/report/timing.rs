@@ -18,8 +18,8 @@ pub struct Effort {
 /// Many runs and short, so that the median is one that no other process interrupted: some 25 ms.
 pub const CAREFUL: Effort = Effort { runs: 101, least: Duration::from_micros(250) };
 
-/// For what must not take long beside a render: some 1 ms.
-pub const BRIEF: Effort = Effort { runs: 21, least: Duration::from_micros(50) };
+/// For what must not take long beside a render: some 0.5 ms.
+pub const BRIEF: Effort = Effort { runs: 11, least: Duration::from_micros(40) };
 
 /// Nanoseconds of one evaluation, all lanes together.
 pub fn nanoseconds(interface: &Ready<LANES>, effort: Effort) -> f64 {
