@@ -115,7 +115,7 @@ fn another_data_set_takes_its_place() {
     let own = json(&["Au/johnson-christy-1972"]);
     assert_eq!(own["materials"][0]["f0"], row["f0"]);
     let refusal = refused(folder(&[]).path(), &["f0", "iron", "--ior", "gold=Au/johnson-christy-1972"]);
-    assert!(refusal.contains("`gold` is not in this table"), "{refusal}");
+    assert!(refusal.contains("`gold` is not among the materials (iron)"), "{refusal}");
 }
 
 #[test]

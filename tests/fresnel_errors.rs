@@ -262,7 +262,7 @@ fn tables_hold_what_the_json_holds() {
     assert_eq!(cells[1..8], ["0.0344", "77°", "0.0133", "0.0096", "0.87", "2.40", "84°"]);
     let markdown = text("md");
     assert!(
-        markdown.starts_with("### gold (`Au/olmon-2012-evaporated`)\n\n| Model |") && markdown.contains("### diamond")
+        markdown.starts_with("### gold (`Au/olmon-2012-evaporated`)\n\n| Model ") && markdown.contains("### diamond")
     );
     let csv = text("csv");
     let head: Vec<_> = csv.lines().next().expect("a head").split(',').collect();

@@ -98,7 +98,11 @@ fn what_is_wrong_with_a_table_is_told() {
         ("n1,n2,k2,cos_i\n1,1.5,-1,1\n", &["points.csv:2", "`k2` is -1", "not negative"]),
         ("n1,n2,k2,cos_i\n1,nan,0,1\n", &["points.csv:2", "`n2` is nan"]),
         ("n1,n2,k2,cos_i\n1,glass,0,1\n", &["points.csv:2", "`n2` is \"glass\", expected a number"]),
-        ("n1,n2,k2,cos_i\n1,1.5\n", &["points.csv"]),
+        ("n1,n2,k2,cos_i\n1,1.5\n", &["points.csv:2: 2 columns, expected 4"]),
+        // As an editor counts: comments and empty lines before a row, and before the header.
+        ("n1,n2,k2,cos_i\n1,1.5,0,1\n# x\n1,1.5,0,1.5\n", &["points.csv:4", "`cos_i` is 1.5"]),
+        ("# x\n# y\nn1,n2,k2,cos_i\n# z\n\n1,1.5,0,1\n# z\n1,glass,0,1\n", &["points.csv:8", "\"glass\""]),
+        ("n1,n2,k2,cos_i\n1,1.5,0,1\n# x\n# y\n1,1.5\n", &["points.csv:5: 2 columns"]),
         ("", &["no column"]),
     ] {
         let said = table(text);

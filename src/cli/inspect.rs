@@ -3,10 +3,12 @@
 use super::{SceneArgs, show};
 use crate::geometry::{Mesh, Shape};
 use crate::light::Source;
+use crate::report::markup;
 use crate::scene::describe::ExposureValue;
 use crate::scene::{
     Decision, Interface, MediumId, Needs, Object, Overrides, Scene, SceneError, Surface, listed, resolve,
 };
+use crate::spectrum::{About, citation};
 use clap::Args;
 use serde::Serialize;
 
@@ -67,12 +69,7 @@ pub fn run(args: &InspectArgs) -> Result<(), SceneError> {
     let library = args.scene.library.open()?;
     let scene = resolve(args.scene.read()?, &library, &Overrides::default())?;
     let report = report(&scene);
-    if args.json {
-        show::answer(serde_json::to_string_pretty(&report).map_err(SceneError::new)?);
-    } else {
-        show::answer(text(&report));
-    }
-    Ok(())
+    show::answer(if args.json { markup::json(&report).map_err(SceneError::new)? } else { text(&report) })
 }
 
 fn report(scene: &Scene) -> Report {
@@ -106,26 +103,18 @@ fn report(scene: &Scene) -> Report {
     }
 }
 
-/// Every data set once, with all that use it.
 fn data(scene: &Scene) -> Vec<DataReport> {
-    let mut reports: Vec<DataReport> = Vec::new();
-    for data in &scene.data {
-        let about = &data.about;
-        match reports.iter_mut().find(|report| report.name == about.name && report.range_nm == about.range_nm) {
-            Some(report) => report.used_by.push(data.used_by.clone()),
-            None => reports.push(DataReport {
-                name: about.name.clone(),
-                used_by: vec![data.used_by.clone()],
-                range_nm: about.range_nm,
-                covers_visible: about.covers_nm(VISIBLE_NM.0, VISIBLE_NM.1),
-                confidence: about.confidence().to_string(),
-                authors: about.source.authors.clone(),
-                year: about.source.year,
-                doi: about.source.doi.clone(),
-            }),
-        }
-    }
-    reports
+    let report = |(about, used_by): (&About, Vec<String>)| DataReport {
+        name: about.name.clone(),
+        used_by,
+        range_nm: about.range_nm,
+        covers_visible: about.covers_nm(VISIBLE_NM.0, VISIBLE_NM.1),
+        confidence: about.confidence().to_string(),
+        authors: about.source.authors.clone(),
+        year: about.source.year,
+        doi: about.source.doi.clone(),
+    };
+    show::data_sets(&scene.data).into_iter().map(report).collect()
 }
 
 fn shape_kind(shape: &Shape) -> String {
@@ -199,7 +188,7 @@ fn data_row(data: &DataReport) -> [String; 5] {
         data.name.clone(),
         format!("{}{gap}", show::range_nm(data.range_nm)),
         format!("confidence {}", data.confidence),
-        show::source(&data.authors, data.year),
+        citation(&data.authors, data.year),
         format!("for {}", listed(&users)),
     ]
 }

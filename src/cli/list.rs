@@ -1,9 +1,10 @@
 //! `spectrel list`: what scenes can name, and where it comes from.
 
 use super::{LibraryArgs, show};
+use crate::report::markup;
 use crate::scene::describe::{IndexSource, Material, ReflectanceSource};
 use crate::scene::{SceneError, Text};
-use crate::spectrum::{About, Library, Observer, Quantity};
+use crate::spectrum::{About, Library, Observer, Quantity, citation};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use std::path::Path;
@@ -60,12 +61,7 @@ pub fn run(args: &ListArgs) -> Result<(), SceneError> {
         }
         What::Illuminants => data_sets(&library, Quantity::Illuminant)?,
     };
-    if args.json {
-        show::answer(serde_json::to_string_pretty(&entries).map_err(SceneError::new)?);
-    } else {
-        show::answer(text(args.what, &entries));
-    }
-    Ok(())
+    show::answer(if args.json { markup::json(&entries).map_err(SceneError::new)? } else { text(args.what, &entries) })
 }
 
 fn data_sets(library: &Library, quantity: Quantity) -> Result<Vec<Entry>, SceneError> {
@@ -137,7 +133,7 @@ fn material(library: &Library, name: &str) -> Result<Entry, SceneError> {
 }
 
 fn text(what: What, entries: &[Entry]) -> String {
-    let source = |entry: &Entry| show::source(&entry.authors, entry.year);
+    let source = |entry: &Entry| citation(&entry.authors, entry.year);
     let range = |entry: &Entry| show::range_nm(entry.range_nm);
     match what {
         What::Materials => {

@@ -12,7 +12,10 @@ mod memory;
 mod preview;
 mod progress;
 mod render;
+mod settings;
 mod show;
+mod subjects;
+mod tables;
 mod watch;
 
 use crate::scene::{SceneError, Text};
@@ -97,11 +100,16 @@ fn scene_text(path: Option<&Path>, (name, content): (&str, &str)) -> Result<Text
     path.map_or_else(|| Ok(Text::new(name, content)), read_text)
 }
 
+/// What is made of a scene is called after its file, unless it is named.
+fn scene_name(path: Option<&Path>) -> String {
+    path.and_then(Path::file_stem).unwrap_or("spectrel".as_ref()).to_string_lossy().into_owned()
+}
+
 /// An option's `MATERIAL=NAME`.
 fn pair(text: &str) -> Result<(String, String), String> {
     match text.split_once('=').map(|(material, name)| (material.trim(), name.trim())) {
         Some((material, name)) if !material.is_empty() && !name.is_empty() => Ok((material.into(), name.into())),
-        _ => Err("expected a material of the scene, `=` and a name, such as gold=silver".into()),
+        _ => Err("expected a material, `=` and a name, such as gold=silver".into()),
     }
 }
 

@@ -4,12 +4,13 @@ use super::interrupt::Interrupt;
 use super::job::Job;
 use super::layers::LayerArgs;
 use super::preview::{DEFAULT_HOST, Preview};
-use super::{SceneArgs, pair, show, watch};
+use super::settings::SettingsArgs;
+use super::{SceneArgs, pair, scene_name, show, watch};
 use crate::fresnel::FresnelModel;
 use crate::image::{self, Bits, ExrSpace, Options};
 use crate::scene::{Overrides, SceneError, Text, resolve};
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub struct RenderArgs {
@@ -19,25 +20,12 @@ pub struct RenderArgs {
     /// name with .png and .exr]
     #[arg(short, long, value_name = "FILE")]
     output: Vec<PathBuf>,
-    /// Samples a pixel
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    spp: Option<u32>,
-    /// Another seed gives another noise
-    #[arg(long, value_name = "S")]
-    seed: Option<u64>,
-    /// Threads, which change nothing but the time [default: all cores]
-    #[arg(long, value_name = "T", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
-    /// Width in pixels; the height follows if it is not given
-    #[arg(long, value_name = "W", value_parser = clap::value_parser!(u32).range(1..))]
-    width: Option<u32>,
-    /// Height in pixels; the width follows if it is not given
-    #[arg(long, value_name = "H", value_parser = clap::value_parser!(u32).range(1..))]
-    height: Option<u32>,
+    #[command(flatten)]
+    settings: SettingsArgs,
     /// Render this part only: pixels from the upper left, x1 and y1 excluded
     #[arg(long, value_name = "x0,y0,x1,y1", value_parser = crop)]
     crop: Option<[u32; 4]>,
-    #[arg(long, value_name = "MODEL", value_parser = model, help = format!("Fresnel model for every material: {}", FresnelModel::NAMES.join(", ")))]
+    #[arg(long, value_name = "MODEL", help = format!("Fresnel model for every material: {}", FresnelModel::NAMES.join(", ")))]
     fresnel: Option<FresnelModel>,
     /// Take another data set of n and k for a material of the scene, such as gold=Au/johnson-christy-1972 (`spectrel list
     /// spectra` shows them, and a .csv, .yml or .toml file of yours will do); can be repeated
@@ -77,10 +65,6 @@ fn crop(text: &str) -> Result<[u32; 4], String> {
     numbers.map_err(|_| expected())?.try_into().map_err(|_| expected())
 }
 
-pub fn model(name: &str) -> Result<FresnelModel, String> {
-    name.parse().map_err(|error: crate::fresnel::UnknownModel| error.to_string())
-}
-
 fn lanes(text: &str) -> Result<u32, String> {
     match text.parse() {
         Ok(lanes @ (1 | 4 | 8)) => Ok(lanes),
@@ -99,15 +83,11 @@ fn bits(text: &str) -> Result<PngBits, String> {
 impl RenderArgs {
     fn overrides(&self) -> Overrides {
         Overrides {
-            width: self.width,
-            height: self.height,
             crop: self.crop,
-            samples: self.spp,
-            seed: self.seed,
             fresnel: self.fresnel,
             lanes: self.lanes,
             ior: self.ior.clone(),
-            vary: Vec::new(),
+            ..self.settings.overrides()
         }
     }
 
@@ -120,8 +100,7 @@ impl RenderArgs {
 
     /// What pictures are called unless they are named.
     fn name(&self) -> String {
-        let stem = self.scene.scene.as_deref().and_then(Path::file_stem).unwrap_or("spectrel".as_ref());
-        stem.to_string_lossy().into_owned()
+        scene_name(self.scene.scene.as_deref())
     }
 
     pub fn quiet(&self) -> bool {
@@ -129,7 +108,7 @@ impl RenderArgs {
     }
 
     pub fn threads(&self) -> usize {
-        usize::from(self.threads.unwrap_or(0))
+        self.settings.threads()
     }
 
     pub fn options(&self) -> Options {

@@ -1,11 +1,29 @@
 //! What people read: answers on standard output, everything else on standard error.
 
+use crate::image::atomic;
+use crate::scene::{DataSet, SceneError};
+use crate::spectrum::About;
 use std::fmt::Display;
 use std::io::{self, Write};
+use std::path::Path;
 
-/// An answer; a reader that has closed the pipe has seen enough.
-pub fn answer(text: impl Display) {
-    let _ = writeln!(io::stdout().lock(), "{text}");
+/// An answer of whole lines; a reader that has closed the pipe has seen enough.
+pub fn answer(text: impl AsRef<str>) -> Result<(), SceneError> {
+    let mut out = io::stdout().lock();
+    match writeln!(out, "{}", text.as_ref().trim_end_matches('\n')).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(SceneError::new(format!("cannot write the answer: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// An answer to a file, or to standard output.
+pub fn answer_to(output: Option<&Path>, text: &str) -> Result<(), SceneError> {
+    match output {
+        Some(path) => atomic::write(path, text.as_bytes()).map_err(SceneError::new),
+        None => answer(text),
+    }
 }
 
 pub fn note(text: impl Display) {
@@ -43,13 +61,20 @@ pub fn section(title: impl Display, lines: &str) -> String {
     format!("{title}{}", lines.concat())
 }
 
+/// Every data set of these once, in the order of their first use, with all that use it.
+pub fn data_sets<'a>(all: impl IntoIterator<Item = &'a DataSet>) -> Vec<(&'a About, Vec<String>)> {
+    let mut found: Vec<(&About, Vec<String>)> = Vec::new();
+    for DataSet { used_by, about } in all {
+        match found.iter_mut().find(|(known, _)| known.name == about.name && known.range_nm == about.range_nm) {
+            Some((_, users)) if users.contains(used_by) => {}
+            Some((_, users)) => users.push(used_by.clone()),
+            None => found.push((about, vec![used_by.clone()])),
+        }
+    }
+    found
+}
+
 /// Wavelengths that data cover.
 pub fn range_nm(range: Option<(f64, f64)>) -> String {
     range.map_or("everywhere".into(), |(first, last)| format!("{first:.0}–{last:.0} nm"))
-}
-
-/// Who published data, in short.
-pub fn source(authors: &str, year: Option<i32>) -> String {
-    let first_author = authors.split([',', ';']).next().unwrap_or_default();
-    year.map_or(first_author.to_owned(), |year| format!("{first_author} {year}"))
 }

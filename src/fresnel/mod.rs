@@ -5,7 +5,7 @@
 //! `models!` below.
 //!
 //! - `specimen`: an interface as measured; `target`: the colours that RGB models are fitted to; `rgb`: how they act on wavelengths.
-//! - `tabulated`: any model on a specimen, for tables and curves.
+//! - `tabulated`: any model on a specimen, for tables and curves; `ready`: in the lanes of a path.
 //! - `average`, `quadrature`: sums over angles.
 //!
 //! An F0 table, in linear sRGB under D65:
@@ -43,6 +43,7 @@ pub mod gulbrandsen;
 pub mod lazanyi;
 mod model;
 pub mod quadrature;
+mod ready;
 mod rgb;
 pub mod rgb_exact;
 pub mod schlick;
@@ -56,6 +57,7 @@ mod target;
 pub use average::{average, f0};
 pub use dielectric::Dielectric;
 pub use model::{Model, Rgb, UnknownModel};
+pub use ready::{Fitted, Ready};
 pub use rgb::{DielectricFresnel, Fresnel, RgbFresnel};
 pub use specimen::Specimen;
 pub use tabulated::Tabulated;

@@ -20,10 +20,14 @@ impl<'a> Specimen<'a> {
         Self { n1: &VACUUM, n2: &ior.n, k2: &ior.k }
     }
 
-    /// The boundary of two clear media, seen from the rarer one (the one of the smaller n at 550 nm).
-    pub fn between(a: &'a Spectrum, b: &'a Spectrum) -> Self {
-        let (n1, n2) = if a.at(550.0) <= b.at(550.0) { (a, b) } else { (b, a) };
+    /// The boundary of two clear media: of what absorbs inside, reflection knows nothing.
+    pub fn clear(n1: &'a Spectrum, n2: &'a Spectrum) -> Self {
         Self { n1, n2, k2: &LOSSLESS }
+    }
+
+    /// The same, seen from the rarer one (the one of the smaller n at 550 nm).
+    pub fn between(a: &'a Spectrum, b: &'a Spectrum) -> Self {
+        if a.at(550.0) <= b.at(550.0) { Self::clear(a, b) } else { Self::clear(b, a) }
     }
 
     /// (n1, n2, k2) at a wavelength, nm.

@@ -1,53 +1,43 @@
 //! Any model on a specimen, as tables and plots ask for it: at a wavelength, and as a colour.
 
-use super::{FresnelModel, RgbCurve, Specimen, SpectralModel, Target};
+use super::{Fitted, FresnelModel, RgbCurve, Specimen, SpectralModel, Target};
 use crate::spectrum::{Colorimeter, Lanes};
 
 /// A model made ready for one specimen.
 #[derive(Clone, Copy, Debug)]
 pub struct Tabulated<'a> {
     specimen: Specimen<'a>,
-    kind: Kind,
-}
-
-#[derive(Clone, Copy, Debug)]
-enum Kind {
-    Spectral(SpectralModel),
-    Rgb(RgbCurve),
+    model: Fitted,
 }
 
 impl<'a> Tabulated<'a> {
     /// RGB models are fitted to the target's colours.
     pub fn new(model: FresnelModel, target: &Target<'a>) -> Self {
-        let kind = match model {
-            FresnelModel::Spectral(model) => Kind::Spectral(model),
-            FresnelModel::Rgb(model) => Kind::Rgb(model.fit(target)),
-        };
-        Self { specimen: target.specimen, kind }
+        Self { specimen: target.specimen, model: Fitted::new(model, target) }
     }
 
     /// The fitted curve of an RGB model.
     pub fn rgb_curve(&self) -> Option<&RgbCurve> {
-        match &self.kind {
-            Kind::Spectral(_) => None,
-            Kind::Rgb(curve) => Some(curve),
+        match &self.model {
+            Fitted::Spectral(_) => None,
+            Fitted::Rgb(curve) => Some(curve),
         }
     }
 
     /// Reflectance at a wavelength, nm; none of an RGB model. The exact model is the f64 reference, others are the kernels that render.
     pub fn at(&self, nm: f64, cos_theta_i: f64) -> Option<f64> {
-        match self.kind {
-            Kind::Spectral(model) => Some(spectral(model, &self.specimen, nm, cos_theta_i)),
-            Kind::Rgb(_) => None,
+        match self.model {
+            Fitted::Spectral(model) => Some(spectral(model, &self.specimen, nm, cos_theta_i)),
+            Fitted::Rgb(_) => None,
         }
     }
 
     /// The colour after `bounces` reflections at the same angle, linear RGB: the colour of the spectrum's power, or the power of each
     /// channel of an RGB model, which knows no light but its own.
     pub fn color(&self, cos_theta_i: f64, bounces: i32, meter: &Colorimeter) -> [f64; 3] {
-        match self.kind {
-            Kind::Spectral(model) => meter.rgb(|nm| power(spectral(model, &self.specimen, nm, cos_theta_i), bounces)),
-            Kind::Rgb(curve) => curve.reflectance(cos_theta_i as f32).0.map(|value| power(f64::from(value), bounces)),
+        match self.model {
+            Fitted::Spectral(model) => meter.rgb(|nm| power(spectral(model, &self.specimen, nm, cos_theta_i), bounces)),
+            Fitted::Rgb(curve) => curve.reflectance(cos_theta_i as f32).0.map(|value| power(f64::from(value), bounces)),
         }
     }
 }

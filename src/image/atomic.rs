@@ -13,7 +13,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), ImageError> {
     write_with(path, |file| file.write_all(bytes))
 }
 
-/// [`write`] for content that comes bit by bit, such as a film.
+/// [`write()`] for content that comes bit by bit, such as a film.
 pub fn write_with(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), ImageError> {
     let failed = |error| ImageError::Write { path: path.to_path_buf(), error };
     let (file, target) = open(path)?;
@@ -26,7 +26,7 @@ pub fn write_with(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Resul
     Ok(())
 }
 
-/// Whether [`write`] to `path` would find a place to write. Leaves nothing behind.
+/// Whether [`write()`] to `path` would find a place to write. Leaves nothing behind.
 pub fn check(path: &Path) -> Result<(), ImageError> {
     let (file, _) = open(path)?;
     file.close().map_err(|error| ImageError::Write { path: path.to_path_buf(), error })

@@ -74,7 +74,7 @@ pub struct Encoded {
     pub beyond_half: u64,
 }
 
-/// What [`write`] wrote.
+/// What [`write()`] wrote.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Written {
     pub path: PathBuf,
@@ -96,7 +96,7 @@ pub fn write(
     Ok(Written { path: path.to_path_buf(), bytes: encoded.bytes.len() as u64, beyond_half: encoded.beyond_half })
 }
 
-/// The file that [`write`] would write, in memory.
+/// The file that [`write()`] would write, in memory.
 pub fn encode(
     format: Format,
     developed: &Developed,
@@ -121,7 +121,7 @@ pub fn encode_with(
     }
 }
 
-/// Fails now if [`write`] to `path` would fail later: for use before a long render.
+/// Fails now if [`write()`] to `path` would fail later: for use before a long render.
 pub fn check_writable(path: &Path) -> Result<(), ImageError> {
     Format::of(path)?;
     atomic::check(path)

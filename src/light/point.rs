@@ -32,7 +32,7 @@ pub struct Cone {
 }
 
 impl Cone {
-    /// Angles in radians from the axis, 0 ≤ `full` ≤ `none` ≤ π; `None` for others, below [`NARROWEST`] and without a direction.
+    /// Angles in radians from the axis, 0 ≤ `full` ≤ `none` ≤ π; `None` for others, below `NARROWEST` and without a direction.
     pub fn new(axis: DVec3, full: f64, none: f64) -> Option<Self> {
         let axis = axis.try_normalize()?.as_vec3();
         let possible = full >= 0.0 && full <= none && (NARROWEST..=std::f64::consts::PI).contains(&none);

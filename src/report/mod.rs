@@ -5,23 +5,28 @@
 //! - `view`: radiances as a display shows them; `difference`: two pictures compared, replicate by replicate.
 //! - `jackknife`: what independent replicates say of a number's error.
 //! - `comparison`: variants of a scene beside each other, as one HTML page and as JSON.
-//! - `plot`, `curves`, `colormap`: figures in SVG, lines in a small one, numbers as colours.
+//! - `plot`, `colormap`: figures in SVG, numbers as colours.
+//! - `grid`: a table as text, Markdown or CSV; `markup`: texts and values as HTML, Markdown and JSON take them.
+//! - `table`: tables of others, read.
 //! - `timing`: what one evaluation costs.
 //!
 //! Numbers in, text and pixels out: this room knows no scene.
 
 pub mod colormap;
 pub mod comparison;
-pub mod curves;
 pub mod difference;
 pub mod f0;
 pub mod fresnel;
+mod grid;
 pub mod jackknife;
+pub mod markup;
 pub mod plot;
+pub mod table;
 pub mod timing;
 pub mod view;
 
 pub use comparison::Comparison;
 pub use difference::{Difference, Noise, Verdict};
+pub use grid::Grid;
 pub use jackknife::Estimate;
 pub use view::View;

@@ -1,23 +1,40 @@
-//! What one evaluation of a function costs.
+//! What a model costs at a hit: the time of one evaluation for all lanes, measured here and now.
 //!
-//! The fastest of several runs, since whatever else the machine does only ever adds to the time. A figure for a report, not
-//! for a test: it belongs to the machine, and includes reading one number and adding up another.
+//! The median of runs over a thousand angles, as rendering evaluates it: the reflectance from the indices. A figure to compare models
+//! by on one machine, and for a report, not for a test; `benches/fresnel.rs` measures with more care.
 
+use crate::fresnel::Ready;
+use crate::spectrum::{LANES, Lanes};
 use std::hint::black_box;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
-/// Calls of a run, and runs.
-const CALLS: u32 = 4096;
-const RUNS: usize = 12;
+/// How long is measured: so many runs, each at least so long.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Effort {
+    pub runs: usize,
+    pub least: Duration,
+}
 
-/// Nanoseconds of one call of a function of cos θ, 0…1.
-pub fn ns_per_call(mut call: impl FnMut(f32) -> f32) -> f64 {
-    let mut run = || {
-        let started = Instant::now();
-        let sum = (0..CALLS).fold(0.0, |sum, i| sum + call(black_box((i as f32 + 0.5) / CALLS as f32)));
-        black_box(sum);
-        started.elapsed().as_secs_f64()
+/// Many runs and short, so that the median is one that no other process interrupted: some 25 ms.
+pub const CAREFUL: Effort = Effort { runs: 101, least: Duration::from_micros(250) };
+
+/// For what must not take long beside a render: some 0.5 ms.
+pub const BRIEF: Effort = Effort { runs: 11, least: Duration::from_micros(40) };
+
+/// Nanoseconds of one evaluation, all lanes together.
+pub fn nanoseconds(interface: &Ready<LANES>, effort: Effort) -> f64 {
+    // Varied, so that what is timed is how many fit in a second, not how long one waits for another.
+    let cosines: Vec<f32> = (0..1000).map(|hit| (hit as f32 * 0.618_034).fract()).collect();
+    let pass = || black_box(cosines.iter().fold(Lanes::ZERO, |sum, &cos| sum + black_box(interface).reflectance(cos)));
+    let run = || {
+        let (start, mut evaluations) = (Instant::now(), 0);
+        while start.elapsed() < effort.least {
+            pass();
+            evaluations += cosines.len();
+        }
+        start.elapsed().as_secs_f64() * 1e9 / evaluations as f64
     };
-    let fastest = (0..RUNS).map(|_| run()).fold(f64::INFINITY, f64::min);
-    fastest * 1e9 / f64::from(CALLS)
+    let mut times: Vec<f64> = (0..effort.runs.max(1)).map(|_| run()).collect();
+    times.sort_by(f64::total_cmp);
+    times[times.len() / 2]
 }

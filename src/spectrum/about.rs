@@ -83,6 +83,12 @@ pub struct Source {
     pub origin: String,
 }
 
+/// Who published, in short: first author and year.
+pub fn citation(authors: &str, year: Option<i32>) -> String {
+    let first = authors.split([',', ';']).next().and_then(|first| first.split(" and ").next()).unwrap_or_default();
+    year.map_or_else(|| first.to_owned(), |year| format!("{first} {year}"))
+}
+
 /// What was measured and how.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]

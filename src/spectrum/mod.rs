@@ -39,7 +39,7 @@ mod toml_file;
 mod upsample;
 mod upsample_table;
 
-pub use about::{About, Confidence, Dataset, Ior, Quantity, Sample, Source};
+pub use about::{About, Confidence, Dataset, Ior, Quantity, Sample, Source, citation};
 pub use arena::{Arena, SpectrumId, Tables};
 pub use bands::{Band, Bands};
 pub use bins::{BinShares, Bins};

@@ -2,11 +2,11 @@
 //!
 //! By the very kernels that render, in the eight lanes of a path; the scene's outside medium is on the other side.
 
-use crate::fresnel::{DielectricFresnel, Fresnel, FresnelModel, RgbCurve, RgbFresnel, Specimen, SpectralModel, Target};
+use crate::fresnel::{Fitted, FresnelModel, Ready, Specimen, Target};
 use crate::report::comparison::{Curves, Line};
-use crate::report::timing::ns_per_call;
+use crate::report::timing::{self, BRIEF};
 use crate::scene::{MediumId, Scene, Surface};
-use crate::spectrum::{LANES, Lanes, SpectrumId};
+use crate::spectrum::{LANES, Lanes};
 use std::collections::BTreeSet;
 
 /// Where a curve is sampled: 400 to 700 nm, a path's lanes at a time.
@@ -21,36 +21,11 @@ enum From {
     Inside,
 }
 
-/// The indices at the wavelengths of a path.
-struct Indices {
-    outside: Lanes<LANES>,
-    n: Lanes<LANES>,
-    k: Lanes<LANES>,
-    /// Of RGB models.
-    primaries: [Lanes<LANES>; 3],
-    /// What the eye makes of each wavelength; all sets together sum to 1.
-    weights: Lanes<LANES>,
-}
-
-/// What reflects by Fresnel's equations, or by a model of them.
+/// What reflects by Fresnel's equations, or by a model of them: seen from outside, for each set of wavelengths with what the eye makes
+/// of each; all sets together sum to 1.
 struct Interface {
-    model: Ready,
-    sets: Vec<Indices>,
+    sets: Vec<(Ready<LANES>, Lanes<LANES>)>,
     metal: bool,
-}
-
-enum Ready {
-    Spectral(SpectralModel),
-    Rgb(RgbCurve),
-}
-
-impl Ready {
-    fn new(scene: &Scene, model: FresnelModel, specimen: Specimen) -> Option<Self> {
-        Some(match model {
-            FresnelModel::Spectral(model) => Self::Spectral(model),
-            FresnelModel::Rgb(model) => Self::Rgb(model.fit(&Target::new(specimen, &scene.rgb.as_ref()?.meter))),
-        })
-    }
 }
 
 impl Interface {
@@ -58,77 +33,58 @@ impl Interface {
     fn of(scene: &Scene, surface: usize) -> Option<Self> {
         match *scene.surfaces.get(surface)? {
             Surface::Conductor { n, k, model, .. } => {
-                let model = Ready::new(scene, model, scene.metal([n, k], MediumId::OUTSIDE))?;
-                Some(Self { model, sets: indices(scene, n, Some(k)), metal: true })
+                let specimen = scene.metal([n, k], MediumId::OUTSIDE);
+                Some(Self::new(scene, fitted(scene, model, specimen)?, specimen, true))
             }
             Surface::Dielectric(interface) => {
-                let n = scene.medium(interface.medium).n;
-                let [outside, inside] = [scene.medium(MediumId::OUTSIDE).n, n].map(|id| scene.spectra.get(id));
-                let model = Ready::new(scene, interface.model, Specimen::between(outside, inside))?;
-                Some(Self { model, sets: indices(scene, n, None), metal: false })
+                let [outside, inside] =
+                    [MediumId::OUTSIDE, interface.medium].map(|id| scene.spectra.get(scene.medium(id).n));
+                let model = fitted(scene, interface.model, Specimen::between(outside, inside))?;
+                Some(Self::new(scene, model, Specimen::clear(outside, inside), false))
             }
             Surface::Black | Surface::Diffuse { .. } => None,
         }
     }
 
-    #[inline]
-    fn lanes(&self, set: &Indices, from: From, cos_theta_i: f32) -> Lanes<LANES> {
-        let Indices { outside, n, k, primaries, .. } = set;
-        if self.metal {
-            let fresnel = match self.model {
-                Ready::Spectral(model) => Fresnel::Spectral(model.at(outside, n, k)),
-                Ready::Rgb(curve) => Fresnel::Rgb(RgbFresnel { curve, primaries: *primaries }),
-            };
-            return fresnel.reflectance(cos_theta_i);
-        }
-        let fresnel = match self.model {
-            Ready::Spectral(model) => DielectricFresnel::Spectral(model),
-            Ready::Rgb(curve) => DielectricFresnel::Rgb(RgbFresnel { curve, primaries: *primaries }),
+    fn new(scene: &Scene, model: Fitted, specimen: Specimen, metal: bool) -> Self {
+        let step = (LAST_NM - FIRST_NM) / (SETS * LANES - 1) as f64;
+        let eye = |nm: f64| scene.picture.observer.at(nm)[1];
+        let total: f64 = (0..SETS * LANES).map(|i| eye(FIRST_NM + step * i as f64)).sum();
+        let set = |set: usize| {
+            // Lanes of a path are spread over the whole range, too.
+            let nm = std::array::from_fn(|lane| FIRST_NM + step * (lane * SETS + set) as f64);
+            let lanes = |value: &dyn Fn(f64) -> f64| Lanes(nm.map(|nm| value(nm) as f32));
+            let primary = |id| lanes(&|nm| scene.spectra.get(id).at(nm));
+            let primaries = scene.rgb.as_ref().map_or([Lanes::ZERO; 3], |rgb| rgb.primaries.map(primary));
+            (Ready::new(model, &specimen, &nm, primaries, !metal), lanes(&|nm| eye(nm) / total))
         };
-        let (n1, n2) = if from == From::Outside { (outside, n) } else { (n, outside) };
-        fresnel.at(n1, n2, &Lanes::splat(cos_theta_i)).r
+        Self { sets: (0..SETS).map(set).collect(), metal }
     }
 
-    /// Reflectance weighted by what the eye makes of each wavelength.
-    fn luminous(&self, from: From, cos_theta_i: f32) -> f64 {
-        self.sets.iter().map(|set| f64::from((self.lanes(set, from, cos_theta_i) * set.weights).sum())).sum()
-    }
-
-    /// Points (degrees, reflectance).
+    /// Points (degrees, reflectance weighted by what the eye makes of each wavelength).
     fn curve(&self, from: From) -> Vec<[f64; 2]> {
-        let at = |degrees: f64| [degrees, self.luminous(from, libm::cos(degrees.to_radians()).max(0.0) as f32)];
+        let seen = |ready: &Ready<LANES>| if from == From::Outside { *ready } else { ready.from_inside() };
+        let sets: Vec<_> = self.sets.iter().map(|(ready, weights)| (seen(ready), *weights)).collect();
+        let luminous = |cos_theta_i: f32| -> f64 {
+            sets.iter().map(|(ready, weights)| f64::from((ready.reflectance(cos_theta_i) * *weights).sum())).sum()
+        };
+        let at = |degrees: f64| [degrees, luminous(libm::cos(degrees.to_radians()).max(0.0) as f32)];
         (0..=180).map(|half| at(f64::from(half) / 2.0)).collect()
-    }
-
-    fn nanoseconds(&self) -> f64 {
-        let set = &self.sets[0];
-        ns_per_call(|cos_theta_i| self.lanes(set, From::Outside, cos_theta_i).sum())
     }
 }
 
-fn indices(scene: &Scene, n: SpectrumId, k: Option<SpectrumId>) -> Vec<Indices> {
-    let step = (LAST_NM - FIRST_NM) / (SETS * LANES - 1) as f64;
-    let eye = |i: usize| scene.picture.observer.at(FIRST_NM + step * i as f64)[1];
-    let total: f64 = (0..SETS * LANES).map(eye).sum();
-    let lanes = |set: usize, value: &dyn Fn(f64) -> f64| {
-        // Lanes of a path are spread over the whole range, too.
-        Lanes::from_fn(|lane| value(FIRST_NM + step * (lane * SETS + set) as f64) as f32)
-    };
-    let at = |set: usize, id: SpectrumId| lanes(set, &|nm| scene.spectra.get(id).at(nm));
-    let indices = |set| Indices {
-        outside: at(set, scene.medium(MediumId::OUTSIDE).n),
-        n: at(set, n),
-        k: k.map_or(Lanes::ZERO, |k| at(set, k)),
-        primaries: scene.rgb.as_ref().map_or([Lanes::ZERO; 3], |rgb| rgb.primaries.map(|id| at(set, id))),
-        weights: Lanes::from_fn(|lane| (eye(lane * SETS + set) / total) as f32),
-    };
-    (0..SETS).map(indices).collect()
+/// `None` of an RGB model in a scene without their colours, which `resolve` never makes.
+fn fitted(scene: &Scene, model: FresnelModel, specimen: Specimen) -> Option<Fitted> {
+    match model {
+        FresnelModel::Spectral(model) => Some(Fitted::Spectral(model)),
+        FresnelModel::Rgb(_) => Some(Fitted::new(model, &Target::new(specimen, &scene.rgb.as_ref()?.meter))),
+    }
 }
 
 /// Nanoseconds of one evaluation of eight lanes, the mean of the scene's interfaces; `None` without any.
 pub fn nanoseconds(scene: &Scene) -> Option<f64> {
-    let all: Vec<f64> =
-        (0..scene.surfaces.len()).filter_map(|i| Interface::of(scene, i)).map(|i| i.nanoseconds()).collect();
+    let interfaces = (0..scene.surfaces.len()).filter_map(|i| Interface::of(scene, i));
+    let all: Vec<f64> = interfaces.map(|interface| timing::nanoseconds(&interface.sets[0].0, BRIEF)).collect();
     (!all.is_empty()).then(|| all.iter().sum::<f64>() / all.len() as f64)
 }
 

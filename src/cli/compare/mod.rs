@@ -8,18 +8,18 @@ mod variants;
 
 use super::interrupt::Interrupt;
 use super::progress::Shown;
-use super::render::model;
-use super::{LibraryArgs, job, memory, pair, scene_text, show};
+use super::settings::SettingsArgs;
+use super::{LibraryArgs, job, memory, pair, scene_name, scene_text, show};
 use crate::film::Film;
 use crate::fresnel::FresnelModel;
 use crate::report::difference::FEWEST;
 use crate::report::jackknife::MOST;
-use crate::scene::{Overrides, Scene, SceneError, Text};
+use crate::scene::{Scene, SceneError, Text};
 use clap::Args;
 use folder::Folder;
 use outcome::Outcome;
 use replicates::{Plan, render_all};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 use variants::{DEFAULT_MODELS, Variant, variants};
 
@@ -32,7 +32,7 @@ pub struct CompareArgs {
     scene: Option<PathBuf>,
     #[command(flatten)]
     library: LibraryArgs,
-    #[arg(long, value_name = "MODEL,…", value_parser = model, value_delimiter = ',', help = models_help())]
+    #[arg(long, value_name = "MODEL,…", value_delimiter = ',', help = models_help())]
     models: Vec<FresnelModel>,
     /// One more variant: a material of the scene replaced by another one, such as gold=silver; can be repeated
     #[arg(long, value_name = "MATERIAL=NAME", value_parser = pair)]
@@ -46,22 +46,10 @@ pub struct CompareArgs {
     /// Replace an earlier report in that folder
     #[arg(long)]
     force: bool,
-    /// Samples a pixel of each variant, all replicates together
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    spp: Option<u32>,
-    /// Another seed gives another noise
-    #[arg(long, value_name = "S")]
-    seed: Option<u64>,
-    /// Width in pixels; the height follows if it is not given
-    #[arg(long, value_name = "W", value_parser = clap::value_parser!(u32).range(1..))]
-    width: Option<u32>,
-    /// Height in pixels; the width follows if it is not given
-    #[arg(long, value_name = "H", value_parser = clap::value_parser!(u32).range(1..))]
-    height: Option<u32>,
-    /// Threads, which change nothing but the time [default: all cores]
-    #[arg(long, value_name = "T", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
-    /// Independent renders that each variant is the mean of, by which noise is told from difference
+    #[command(flatten)]
+    settings: SettingsArgs,
+    /// Independent renders that each variant is the mean of, by which noise is told from difference; together they have the
+    /// samples of --spp
     #[arg(long, value_name = "R", default_value = "8", value_parser = clap::value_parser!(u16).range(FEWEST as i64..=MOST as i64))]
     replicates: u16,
     /// Print nothing but warnings and errors
@@ -80,16 +68,6 @@ fn models_help() -> String {
 }
 
 impl CompareArgs {
-    fn overrides(&self) -> Overrides {
-        Overrides { width: self.width, height: self.height, samples: self.spp, seed: self.seed, ..Overrides::default() }
-    }
-
-    /// What the scene is called.
-    fn name(&self) -> String {
-        let stem = self.scene.as_deref().and_then(Path::file_stem).unwrap_or("spectrel".as_ref());
-        stem.to_string_lossy().into_owned()
-    }
-
     /// The command that makes the same report, whatever the scene's file says by then of its size and samples.
     fn command(&self, variants: &[Variant], scene: &Scene, plan: &Plan) -> String {
         let models: Vec<_> =
@@ -110,7 +88,7 @@ impl CompareArgs {
     }
 
     fn folder(&self) -> PathBuf {
-        self.output.clone().unwrap_or_else(|| format!("{}-compare", self.name()).into())
+        self.output.clone().unwrap_or_else(|| format!("{}-compare", scene_name(self.scene.as_deref())).into())
     }
 }
 
@@ -129,8 +107,7 @@ pub fn run(args: &CompareArgs) -> Result<(), SceneError> {
     let plan = Plan::new(settings.seed, settings.samples, args.replicates);
     check_memory(&scenes, &plan)?;
     let identities: Vec<u64> = scenes.iter().map(job::fingerprint).collect();
-    let threads = usize::from(args.threads.unwrap_or(0));
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(SceneError::new)?;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(args.settings.threads()).build().map_err(SceneError::new)?;
     pool.install(|| {
         let interrupt = Interrupt::listen();
         let progress = Shown::new(samples(&scenes, &plan), args.quiet);
@@ -156,8 +133,7 @@ pub fn run(args: &CompareArgs) -> Result<(), SceneError> {
         };
         let report = outcome.compare(rendering, interrupt.pressed())?;
         folder.write(&outcome.files(&report)?)?;
-        outcome.tell(&report, started.elapsed().as_secs_f64());
-        Ok(())
+        outcome.tell(&report, started.elapsed().as_secs_f64())
     })
 }
 

@@ -10,7 +10,7 @@ use crate::image::{self, Format, Metadata, Options, png};
 use crate::report::colormap::{DELTA_E, LUMINANCE, Scale};
 use crate::report::comparison::{self, Comparison, Data, Files, HTML_FILE, JSON_FILE, Pictures, Settings};
 use crate::report::difference::{Compared, Image, compare, noise};
-use crate::report::{Verdict, View};
+use crate::report::{Verdict, View, markup};
 use crate::scene::{Scene, SceneError, Text};
 use rayon::prelude::*;
 use std::time::Instant;
@@ -46,6 +46,7 @@ impl Outcome<'_> {
         let encode = |i: usize| self.encode(i, &developed[i], i.checked_sub(1).map(|before| &compared[before]));
         let files = (0..developed.len()).into_par_iter().map(encode).collect::<Result<Vec<_>, _>>()?;
         let (pictures, exr) = files.into_iter().unzip();
+        let data = show::data_sets(self.scenes.iter().flat_map(|scene| &scene.data));
         let mut comparison = Comparison {
             version: env!("CARGO_PKG_VERSION").into(),
             scene: self.text.path.display().to_string(),
@@ -55,7 +56,7 @@ impl Outcome<'_> {
             rendering_seconds,
             report_seconds: 0.0,
             interrupted,
-            data: self.data(),
+            data: data.into_iter().map(|(about, used_by)| Data::new(about, used_by)).collect(),
             curves: curves(self.scenes, &self.labels()),
         };
         comparison.report_seconds = started.elapsed().as_secs_f64();
@@ -65,7 +66,7 @@ impl Outcome<'_> {
     /// Names and contents of all files.
     pub fn files(&self, report: &Report) -> Result<Vec<(String, Vec<u8>)>, SceneError> {
         let Report { comparison, pictures, exr } = report;
-        let json = comparison.json().map_err(SceneError::new)?;
+        let json = markup::json(comparison).map_err(SceneError::new)?;
         let page = comparison::page(comparison, pictures).map_err(SceneError::new)?;
         let mut files = vec![(JSON_FILE.to_owned(), json.into_bytes()), (HTML_FILE.to_owned(), page.into_bytes())];
         for ((variant, pictures), exr) in comparison.variants.iter().zip(pictures).zip(exr) {
@@ -81,19 +82,20 @@ impl Outcome<'_> {
     }
 
     /// What a person wants to know at once; `seconds` is what all but the renders took.
-    pub fn tell(&self, report: &Report, seconds: f64) {
+    pub fn tell(&self, report: &Report, seconds: f64) -> Result<(), SceneError> {
         if self.args.quiet {
-            return;
+            return Ok(());
         }
         let comparison = &report.comparison;
         let names = ["variant", "render s", "ns", "mean ΔE", "95 % interval", "noise ΔE", "max ΔE", "energy %", ""];
-        show::answer(show::table(names, comparison.variants.iter().map(row)));
+        show::answer(show::table(names, comparison.variants.iter().map(row)))?;
         let rendering = comparison.rendering_seconds;
         show::note(format_args!(
             "rendering {rendering:.1} s, report {seconds:.2} s ({:.1} %)",
             100.0 * seconds / rendering
         ));
         show::note(format_args!("wrote {}", self.args.folder().join(HTML_FILE).display()));
+        Ok(())
     }
 
     fn replicates(&self, variant: usize) -> &[Image] {
@@ -178,20 +180,6 @@ impl Outcome<'_> {
             files: Files::new(&variant.id, i == 0),
         };
         self.variants.iter().enumerate().map(of).collect()
-    }
-
-    /// Every data set of any variant once, with all that use it.
-    fn data(&self) -> Vec<Data> {
-        let mut all: Vec<Data> = Vec::new();
-        for used in self.scenes.iter().flat_map(|scene| &scene.data) {
-            let about = &used.about;
-            match all.iter_mut().find(|data| data.name == about.name && data.range_nm == about.range_nm) {
-                Some(data) if data.used_by.contains(&used.used_by) => {}
-                Some(data) => data.used_by.push(used.used_by.clone()),
-                None => all.push(Data::new(about, &used.used_by)),
-            }
-        }
-        all
     }
 }
 

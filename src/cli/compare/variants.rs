@@ -32,8 +32,12 @@ impl Variant {
 
     /// The scene as this variant has it.
     pub fn resolve(&self, text: &Text, library: &Library, args: &CompareArgs) -> Result<Scene, SceneError> {
-        let overrides =
-            Overrides { fresnel: Some(self.model), ior: self.ior.clone(), vary: self.vary.clone(), ..args.overrides() };
+        let overrides = Overrides {
+            fresnel: Some(self.model),
+            ior: self.ior.clone(),
+            vary: self.vary.clone(),
+            ..args.settings.overrides()
+        };
         resolve(text.clone(), library, &overrides)
             .map_err(|error| SceneError { message: format!("variant `{}`: {}", self.label, error.message), ..error })
     }

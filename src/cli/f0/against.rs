@@ -1,9 +1,10 @@
 //! Colours of others against all data sets of the library.
 
 use super::F0Args;
-use super::subjects::{families, of_library, replace};
+use super::subjects::{families, of_library};
+use crate::cli::tables;
 use crate::report::f0::check::{Checked, Claim, Known, judge};
-use crate::report::f0::claims::{self, ClaimsError};
+use crate::report::f0::claims;
 use crate::report::f0::{Instrument, Likenesses};
 use crate::scene::{Class, Optics, SceneError, optics};
 use crate::spectrum::{Library, RgbSpace, encode_srgb, srgb_from_hex};
@@ -13,7 +14,7 @@ use std::path::Path;
 fn known(args: &F0Args, library: &Library, instrument: &Instrument) -> Result<Vec<(Known, Class)>, SceneError> {
     let mut materials = of_library(library)?;
     let families = families(library, instrument)?;
-    replace(&mut materials, &args.ior, library)?;
+    args.data.replace(&mut materials, library)?;
     let known = |optics: Optics| {
         let own = &optics.ior.about.name;
         let candidate = |set: String| {
@@ -28,12 +29,8 @@ fn known(args: &F0Args, library: &Library, instrument: &Instrument) -> Result<Ve
 
 /// A table of others, row by row.
 pub fn checked(file: &Path, args: &F0Args, library: &Library, instrument: &Instrument) -> Result<Checked, SceneError> {
-    let shown = file.display();
-    let text = std::fs::read(file).map_err(|error| SceneError::new(format!("cannot read {shown}: {error}")))?;
-    let claims = claims::read(&text).map_err(|ClaimsError { line, message }| {
-        let line = line.map(|line| format!(":{line}")).unwrap_or_default();
-        SceneError::new(format!("{shown}{line}: {message}")).help(COLUMNS)
-    })?;
+    let text = tables::contents(file)?;
+    let claims = claims::read(&text).map_err(|error| tables::wrong(file, error, "table,material,r,g,b,encoding"))?;
     let known = known(args, library, instrument)?;
     let verdict = |claim: Claim| {
         let own = meant(&claim.material, library).and_then(|optics| {
@@ -50,8 +47,6 @@ fn meant(name: &str, library: &Library) -> Result<Optics, String> {
     let dashed = || optics(&name.replace([' ', '_'], "-"), None, library);
     optics(name, None, library).or_else(|error| dashed().map_err(|_| error)).map_err(|error| error.to_string())
 }
-
-const COLUMNS: &str = "the first line that is no comment names the columns, such as `table,material,r,g,b,encoding`";
 
 /// How many metals --match names.
 const LIKENESSES: usize = 5;

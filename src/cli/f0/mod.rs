@@ -3,7 +3,8 @@
 mod against;
 mod subjects;
 
-use super::{LibraryArgs, show};
+use super::show;
+use super::subjects::DataArgs;
 use crate::report::f0::formats::{self, Format, Report};
 use crate::report::f0::{Conditions, Instrument, observer_name};
 use crate::scene::SceneError;
@@ -42,14 +43,11 @@ pub struct F0Args {
     /// Whether the light's white becomes that of the space: bradford or none
     #[arg(long, value_name = "HOW", default_value = "bradford", value_parser = adaptation)]
     adapt: Adaptation,
-    /// Another data set for a material, such as gold=Au/johnson-christy-1972; can be repeated
-    #[arg(long, value_name = "MATERIAL=DATA", value_parser = replacement)]
-    ior: Vec<(String, String)>,
     /// What to print; csv, json and toml have every column
     #[arg(long, value_enum, default_value = "table")]
     format: FormatName,
     #[command(flatten)]
-    library: LibraryArgs,
+    data: DataArgs,
 }
 
 const AFTER_HELP: &str = "\
@@ -86,7 +84,7 @@ impl From<FormatName> for Format {
 }
 
 pub fn run(args: &F0Args) -> Result<(), SceneError> {
-    let library = args.library.open()?;
+    let library = args.data.open()?;
     let instrument = Instrument::new(args.conditions(), &library)?;
     match (&args.check, &args.match_color) {
         (Some(file), _) => answer(&against::checked(file, args, &library, &instrument)?, args.format),
@@ -97,8 +95,7 @@ pub fn run(args: &F0Args) -> Result<(), SceneError> {
 
 /// Everything is computed by now: half a table looks like a whole one.
 fn answer(report: &impl Report, format: FormatName) -> Result<(), SceneError> {
-    show::answer(formats::text(report, format.into()).map_err(SceneError::new)?);
-    Ok(())
+    show::answer(formats::text(report, format.into()).map_err(SceneError::new)?)
 }
 
 impl F0Args {
@@ -134,11 +131,4 @@ fn one_of<T: Copy>(wanted: &str, all: impl IntoIterator<Item = T>, name: fn(T) -
     let names: Vec<_> = all.iter().map(|value| name(*value)).collect();
     let hint = nearest(wanted, names.iter().copied()).map(|near| format!("; did you mean `{near}`?"));
     Err(format!("expected {}{}", names.join(", "), hint.unwrap_or_default()))
-}
-
-fn replacement(text: &str) -> Result<(String, String), String> {
-    match text.split_once('=') {
-        Some((name, data)) if !name.is_empty() && !data.is_empty() => Ok((name.trim().into(), data.trim().into())),
-        _ => Err("expected MATERIAL=DATA, such as gold=Au/johnson-christy-1972".into()),
-    }
 }

@@ -29,39 +29,17 @@ pub fn table(args: &F0Args, library: &Library, instrument: &Instrument) -> Resul
 
 /// What the table is about.
 fn subjects(args: &F0Args, library: &Library) -> Result<Vec<Subject>, SceneError> {
-    let named = !args.materials.is_empty();
-    let mut found = if named { of_names(&args.materials, library)? } else { of_library(library)? };
-    found.retain(|optics| named || args.all || optics.class == Class::Conductor);
-    replace(&mut found, &args.ior, library)?;
-    Ok(found.into_iter().map(subject).collect())
-}
-
-/// Other data sets for some of the materials.
-pub fn replace(found: &mut [Optics], by: &[(String, String)], library: &Library) -> Result<(), SceneError> {
-    for (name, data) in by {
-        let replaced = optics(name, Some(data), library)?;
-        let Some(place) = found.iter_mut().find(|optics| optics.name == replaced.name) else {
-            return Err(SceneError::new(format!("--ior {name}={data}: `{}` is not in this table", replaced.name)));
-        };
-        *place = replaced;
+    if !args.materials.is_empty() {
+        return Ok(args.data.named(&args.materials, library)?.into_iter().map(subject).collect());
     }
-    Ok(())
+    let mut found = of_library(library)?;
+    found.retain(|optics| args.all || optics.class == Class::Conductor);
+    args.data.replace(&mut found, library)?;
+    Ok(found.into_iter().map(subject).collect())
 }
 
 fn subject(optics: Optics) -> Subject {
     Subject { name: optics.name, conductor: optics.class == Class::Conductor, ior: optics.ior }
-}
-
-/// Each once, in the order of the names.
-fn of_names(names: &[String], library: &Library) -> Result<Vec<Optics>, SceneError> {
-    let mut found: Vec<Optics> = Vec::new();
-    for name in names {
-        let optics = optics(name, None, library)?;
-        if found.iter().all(|other| other.name != optics.name) {
-            found.push(optics);
-        }
-    }
-    Ok(found)
 }
 
 /// Every material that has an index of refraction.

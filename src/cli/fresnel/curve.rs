@@ -1,12 +1,13 @@
 //! `spectrel fresnel curve`: reflectance against angle or wavelength, as numbers or as a figure.
 
-use super::deliver;
 use super::numbers::{Kind, list};
-use super::subjects::{DataArgs, Models, meter, subject};
+use super::subjects::{meter, subject};
 use crate::cli::show;
+use crate::cli::subjects::{DataArgs, Models};
 use crate::report::fresnel::curve::{Angle, Grid, Lane, Over, Row, rows};
 use crate::report::fresnel::curve_plot::{MOST_PANELS, figure, panel_count};
 use crate::report::fresnel::{Subject, text};
+use crate::report::markup;
 use crate::scene::{Class, Optics, SceneError};
 use crate::spectrum::Library;
 use clap::{Args, ValueEnum};
@@ -31,7 +32,7 @@ pub struct CurveArgs {
     materials: Vec<String>,
     /// Fresnel models by name, separated by commas, or `all`
     #[arg(long, value_name = "LIST|all", default_value = "exact")]
-    models: String,
+    models: Models,
     /// What runs along a curve
     #[arg(long, value_enum, default_value = "angle")]
     over: Abscissa,
@@ -95,21 +96,20 @@ const COSINES: Kind = Kind { option: "--cosines", range: [0.0, 1.0], example: "0
 pub fn run(args: &CurveArgs) -> Result<(), SceneError> {
     let format = args.format();
     let grid = args.grid(format)?;
-    let models: Models = args.models.parse()?;
-    let library = args.data.library()?;
-    let optics = args.data.optics(&args.materials, &library)?;
+    let library = args.data.open()?;
+    let optics = args.data.named(&args.materials, &library)?;
     let outside = args.outside(&library)?;
     let subjects = args.subjects(&optics, outside.as_ref())?;
-    let rows = curves(&subjects, &models, &grid, &library)?;
-    models.note_left_out(&subjects, args.space.is_none());
+    let rows = curves(&subjects, &args.models, &grid, &library)?;
+    args.models.note_left_out(&subjects, args.space.is_none());
     optics.iter().chain(&outside).for_each(|optics| warn_of_range(optics, &grid));
     let text = match format {
-        Format::Csv => text::curve_csv(&rows).map_err(SceneError::new)?,
-        Format::Json => serde_json::to_string_pretty(&rows).map_err(SceneError::new)? + "\n",
-        Format::Md => text::curve_markdown(&rows),
+        Format::Csv => text::curve_full(&rows).csv().map_err(SceneError::new)?,
+        Format::Json => markup::json(&rows).map_err(SceneError::new)? + "\n",
+        Format::Md => text::curve_brief(&rows).markdown(),
         Format::Svg => drawn(&rows, grid.over)?,
     };
-    deliver(&text, args.output.as_deref())
+    show::answer_to(args.output.as_deref(), &text)
 }
 
 impl CurveArgs {

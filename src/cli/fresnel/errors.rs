@@ -1,10 +1,13 @@
 //! `spectrel fresnel errors`: how far each model is from the exact one.
 
-use super::deliver;
-use super::subjects::{DataArgs, Models, meter, subject};
+use super::subjects::{meter, subject};
+use crate::cli::show;
+use crate::cli::subjects::{DataArgs, Models};
 use crate::fresnel::FresnelModel;
 use crate::report::fresnel::errors::{Light, Row, rows};
-use crate::report::fresnel::{Subject, cost, text};
+use crate::report::fresnel::{Subject, text};
+use crate::report::markup;
+use crate::report::timing::{CAREFUL, nanoseconds};
 use crate::scene::{Class, SceneError, optics};
 use crate::spectrum::Library;
 use clap::{Args, ValueEnum};
@@ -34,7 +37,7 @@ pub struct ErrorsArgs {
     metals: bool,
     /// Fresnel models by name, separated by commas, or `all`
     #[arg(long, value_name = "LIST|all", default_value = "all")]
-    models: String,
+    models: Models,
     #[command(flatten)]
     data: DataArgs,
     /// `table` is for reading; csv and json hold every number, each light with each count of bounces
@@ -59,21 +62,20 @@ const MATERIALS: [&str; 6] = ["silver", "gold", "copper", "aluminium", "iron", "
 const LIGHTS: [&str; 3] = ["D65", "A", "FL2"];
 
 pub fn run(args: &ErrorsArgs) -> Result<(), SceneError> {
-    let models: Models = args.models.parse()?;
-    let library = args.data.library()?;
-    let optics = args.data.optics(&args.names(&library), &library)?;
+    let library = args.data.open()?;
+    let optics = args.data.named(&args.names(&library), &library)?;
     let subjects: Vec<_> = optics.iter().map(subject).collect();
     let light = |name: &str| Ok(Light { name: name.to_owned(), meter: meter(name, &library)? });
     let lights = LIGHTS.into_iter().map(light).collect::<Result<Vec<_>, SceneError>>()?;
-    let rows = errors(&subjects, &models, &lights)?;
-    models.note_left_out(&subjects, false);
+    let rows = errors(&subjects, &args.models, &lights)?;
+    args.models.note_left_out(&subjects, false);
     let text = match args.format {
         Format::Table => text::errors_table(&rows),
-        Format::Csv => text::errors_csv(&rows).map_err(SceneError::new)?,
-        Format::Json => serde_json::to_string_pretty(&rows).map_err(SceneError::new)? + "\n",
+        Format::Csv => text::errors_full(&rows).csv().map_err(SceneError::new)?,
+        Format::Json => markup::json(&rows).map_err(SceneError::new)? + "\n",
         Format::Md => text::errors_markdown(&rows),
     };
-    deliver(&text, args.output.as_deref())
+    show::answer_to(args.output.as_deref(), &text)
 }
 
 impl ErrorsArgs {
@@ -97,7 +99,7 @@ fn errors(subjects: &[Subject], models: &Models, lights: &[Light]) -> Result<Vec
     let mut costs: HashMap<(FresnelModel, bool), f64> = HashMap::new();
     for (subject, models) in subjects.iter().zip(&chosen) {
         for &model in models {
-            let time = || cost::nanoseconds(model, subject, &lights[0].meter);
+            let time = || nanoseconds(&subject.ready(model, &lights[0].meter), CAREFUL);
             costs.entry((model, subject.clear)).or_insert_with(time);
         }
     }

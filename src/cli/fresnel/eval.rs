@@ -1,12 +1,14 @@
 //! `spectrel fresnel eval`: the interface by itself, for every row of a table.
 
+use crate::cli::{show, tables};
 use crate::fresnel::{conductor, dielectric, exact};
+use crate::report::Grid;
+use crate::report::table::{Table, TableError, number};
 use crate::scene::SceneError;
-use crate::spectrum::{Lanes, nearest};
+use crate::spectrum::Lanes;
 use clap::{Args, ValueEnum};
-use csv::{ReaderBuilder, StringRecord, Trim, WriterBuilder};
-use std::io::{self, Read, Write};
-use std::path::{Path, PathBuf};
+use csv::StringRecord;
+use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub struct EvalArgs {
@@ -30,69 +32,35 @@ const RESULTS: [&str; 9] =
 
 /// Answers only once all rows are read: half a table looks like a whole one.
 pub fn run(args: &EvalArgs) -> Result<(), SceneError> {
-    let text = contents(&args.input)?;
-    let table = table(&text, args)?;
-    let mut out = io::stdout().lock();
-    match out.write_all(&table).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(SceneError::new(error)),
-        _ => Ok(()),
-    }
+    let text = tables::contents(&args.input)?;
+    let answer = evaluated(&text, args.precision);
+    let answer = answer.map_err(|error| tables::wrong(&args.input, error, "n1,n2,k2,cos_i"))?;
+    show::answer(answer.csv().map_err(SceneError::new)?)
 }
 
-fn contents(path: &Path) -> Result<Vec<u8>, SceneError> {
-    let mut bytes = Vec::new();
-    if path == Path::new("-") {
-        io::stdin().read_to_end(&mut bytes).map_err(SceneError::new)?;
-        return Ok(bytes);
-    }
-    std::fs::read(path).map_err(|error| SceneError::new(format!("cannot read {}: {error}", path.display())))
-}
-
-fn table(text: &[u8], args: &EvalArgs) -> Result<Vec<u8>, SceneError> {
-    let shown = args.input.display();
-    let mut reader = ReaderBuilder::new().comment(Some(b'#')).trim(Trim::All).from_reader(text);
-    let headers = reader.headers().map_err(|error| SceneError::new(format!("{shown}: {error}")))?.clone();
-    let inputs = columns(&headers).map_err(|error| SceneError::new(format!("{shown}: {error}")).help(HEADER))?;
-    let kept: Vec<usize> = (0..headers.len()).filter(|&column| !RESULTS.contains(&&headers[column])).collect();
-    let mut writer = WriterBuilder::new().from_writer(Vec::new());
-    let names = kept.iter().map(|&column| &headers[column]).chain(RESULTS);
-    writer.write_record(names).map_err(SceneError::new)?;
-    for record in reader.records() {
-        let record = record.map_err(|error| SceneError::new(format!("{shown}: {error}")))?;
-        let line = record.position().map_or(0, csv::Position::line);
-        let point = point(&record, inputs).map_err(|error| SceneError::new(format!("{shown}:{line}: {error}")))?;
-        let results = match args.precision {
+/// The columns that are not named like a result, and the results.
+fn evaluated(text: &[u8], precision: Precision) -> Result<Grid, TableError> {
+    let mut table = Table::new(text)?;
+    let inputs = table.columns(INPUTS.each_ref().map(std::slice::from_ref))?;
+    let kept: Vec<usize> =
+        (0..table.header.len()).filter(|&column| !RESULTS.contains(&&table.header[column])).collect();
+    let heading: Vec<&str> = kept.iter().map(|&column| &table.header[column]).chain(RESULTS).collect();
+    let mut answer = Grid::new(&heading, []);
+    for row in table.rows() {
+        let (line, record) = row?;
+        let point = point(&record, inputs).map_err(|message| TableError { line: Some(line), message })?;
+        let results = match precision {
             Precision::F64 => double(point),
             Precision::F32 => single(point.map(|value| value as f32)),
         };
-        let field = |&column: &usize| match (args.precision, inputs.iter().position(|&input| input == column)) {
+        let field = |&column: &usize| match (precision, inputs.iter().position(|&input| input == column)) {
             // All digits of the rounded number, so that whoever reads it in double precision reads that very number.
             (Precision::F32, Some(input)) => format!("{:?}", f64::from(point[input] as f32)),
             _ => record[column].to_owned(),
         };
-        writer.write_record(kept.iter().map(field).chain(results)).map_err(SceneError::new)?;
+        answer.rows.push(kept.iter().map(field).chain(results).collect());
     }
-    writer.into_inner().map_err(|error| SceneError::new(error.to_string()))
-}
-
-const HEADER: &str = "the first line that is no comment names the columns, such as `n1,n2,k2,cos_i`";
-
-/// Where the four numbers stand.
-fn columns(headers: &StringRecord) -> Result<[usize; 4], String> {
-    let found = INPUTS.map(|name| headers.iter().position(|header| header == name));
-    let missing: Vec<String> = INPUTS
-        .iter()
-        .zip(found)
-        .filter(|(_, place)| place.is_none())
-        .map(|(name, _)| match nearest(name, headers.iter().filter(|header| !INPUTS.contains(header))) {
-            Some(header) => format!("`{name}` (is it `{header}`?)"),
-            None => format!("`{name}`"),
-        })
-        .collect();
-    match found {
-        [Some(n1), Some(n2), Some(k2), Some(cos)] => Ok([n1, n2, k2, cos]),
-        _ => Err(format!("the table has no column {}", missing.join(", "))),
-    }
+    Ok(answer)
 }
 
 /// The four numbers of a row, within what they can be.
@@ -100,7 +68,7 @@ fn point(record: &StringRecord, inputs: [usize; 4]) -> Result<[f64; 4], String> 
     let mut point = [0.0; 4];
     for (slot, (column, name)) in inputs.into_iter().zip(INPUTS).enumerate() {
         let text = &record[column];
-        let value: f64 = text.parse().map_err(|_| format!("`{name}` is \"{text}\", expected a number"))?;
+        let value = number(name, text)?;
         let (holds, wants) = match name {
             "k2" => (value >= 0.0, "not negative"),
             "cos_i" => ((0.0..=1.0).contains(&value), "within 0 … 1"),

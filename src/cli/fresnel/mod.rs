@@ -6,11 +6,8 @@ mod eval;
 mod numbers;
 mod subjects;
 
-use super::show;
-use crate::image::atomic;
 use crate::scene::SceneError;
 use clap::{Args, Subcommand};
-use std::path::Path;
 
 #[derive(Debug, Args)]
 pub struct FresnelArgs {
@@ -33,16 +30,5 @@ pub fn run(args: &FresnelArgs) -> Result<(), SceneError> {
         Command::Curve(args) => curve::run(args),
         Command::Errors(args) => errors::run(args),
         Command::Eval(args) => eval::run(args),
-    }
-}
-
-/// An answer of whole lines, to a file or to standard output.
-fn deliver(text: &str, output: Option<&Path>) -> Result<(), SceneError> {
-    match output {
-        Some(path) => atomic::write(path, text.as_bytes()).map_err(SceneError::new),
-        None => {
-            show::answer(text.trim_end_matches('\n'));
-            Ok(())
-        }
     }
 }

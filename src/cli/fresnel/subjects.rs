@@ -1,83 +1,15 @@
-//! The materials, data sets, models and lights that a command of `spectrel fresnel` is about.
+//! Interfaces, the models that apply to them, and the light they are seen in.
 
-use crate::cli::{LibraryArgs, show};
+use crate::cli::show;
+use crate::cli::subjects::{Models, some};
 use crate::fresnel::FresnelModel;
 use crate::report::fresnel::{Subject, Unfit, check};
-use crate::scene::{Class, Optics, SceneError, optics};
+use crate::scene::{Class, Optics, SceneError};
 use crate::spectrum::{Adaptation, Colorimeter, Library, Observer, RgbSpace};
-use clap::Args;
 use std::path::Path;
-
-#[derive(Debug, Args)]
-pub struct DataArgs {
-    /// Another data set for a material, such as gold=Au/johnson-christy-1972; can be repeated
-    #[arg(long, value_name = "NAME=DATASET")]
-    ior: Vec<String>,
-    #[command(flatten)]
-    library: LibraryArgs,
-}
-
-impl DataArgs {
-    pub fn library(&self) -> Result<Library, SceneError> {
-        self.library.open()
-    }
-
-    /// What is known of each of these materials.
-    pub fn optics(&self, names: &[String], library: &Library) -> Result<Vec<Optics>, SceneError> {
-        let replaced = self.ior.iter().map(|text| replacement(text, names)).collect::<Result<Vec<_>, _>>()?;
-        let data = |name: &str| replaced.iter().rev().find(|(of, _)| *of == name).map(|(_, data)| *data);
-        let mut all: Vec<Optics> = Vec::new();
-        for name in names {
-            let found = optics(name, data(name), library)?;
-            // Whoever says gold and Au means one material.
-            if all.iter().all(|other| other.name != found.name) {
-                all.push(found);
-            }
-        }
-        Ok(all)
-    }
-}
-
-/// The material and the data set of `NAME=DATASET`.
-fn replacement<'a>(text: &'a str, names: &[String]) -> Result<(&'a str, &'a str), SceneError> {
-    let Some((name, data)) = text.split_once('=') else {
-        let help = "NAME=DATASET, such as gold=Au/johnson-christy-1972; `spectrel list spectra` names the data sets";
-        return Err(SceneError::new(format!("--ior {text}: no `=` in it")).help(help));
-    };
-    if !names.iter().any(|known| known == name) {
-        let message = format!("--ior {text}: `{name}` is not among the materials ({})", names.join(", "));
-        return Err(SceneError::new(message));
-    }
-    Ok((name, data))
-}
 
 pub fn subject(optics: &Optics) -> Subject<'_> {
     Subject::new(optics.name.clone(), &optics.ior, optics.class == Class::Dielectric)
-}
-
-/// Which models are asked for.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Models {
-    /// Those that apply.
-    All,
-    Listed(Vec<FresnelModel>),
-}
-
-impl std::str::FromStr for Models {
-    type Err = SceneError;
-    fn from_str(text: &str) -> Result<Self, SceneError> {
-        if text.trim() == "all" {
-            return Ok(Self::All);
-        }
-        let mut listed: Vec<FresnelModel> = Vec::new();
-        for name in text.split(',') {
-            let model = name.trim().parse().map_err(|error| SceneError::new(format!("--models: {error}")))?;
-            if !listed.contains(&model) {
-                listed.push(model);
-            }
-        }
-        Ok(Self::Listed(listed))
-    }
 }
 
 impl Models {
@@ -123,14 +55,6 @@ impl Models {
 fn add<'a>(list: &mut Vec<&'a str>, name: &'a str) {
     if !list.contains(&name) {
         list.push(name);
-    }
-}
-
-/// Four names, or three and the number of the others.
-fn some(names: &[&str]) -> String {
-    match names {
-        [first, second, third, _, _, ..] => format!("{first}, {second}, {third} and {} more", names.len() - 3),
-        _ => names.join(", "),
     }
 }
 

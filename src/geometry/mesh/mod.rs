@@ -1,11 +1,11 @@
 //! Triangle meshes: one set of triangles and its tree, shown at as many places as a scene likes.
 //!
 //! - [`Triangles`]: what a file says
-//! - [`closed`]: whether they enclose a volume, and which way they face
-//! - [`block`]: four triangles and a line, exact in what it crosses
-//! - [`query`]: rays through the tree, and where they begin when they leave a triangle
-//! - [`smooth`]: normals of meshes that have none
-//! - [`placed`]: a mesh under a transform; a thousand copies share the triangles
+//! - `closed`: whether they enclose a volume, and which way they face
+//! - `block`: four triangles and a line, exact in what it crosses
+//! - `query`: rays through the tree, and where they begin when they leave a triangle
+//! - `smooth`: normals of meshes that have none
+//! - `placed`: a mesh under a transform; a thousand copies share the triangles
 
 mod block;
 mod closed;

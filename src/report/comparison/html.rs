@@ -1,10 +1,11 @@
 //! The report as one HTML page that needs nothing else: pictures are inside, and its policy forbids to load anything.
 
 use super::super::colormap::{DELTA_E, LUMINANCE, Scale};
-use super::super::curves::{curves, stroke};
+use super::super::markup::html as escaped;
+use super::super::plot::{Axis, Figure, Panel, Series, Style};
 use super::super::{Difference, Verdict};
-use super::words::{escaped, percent, seconds, short, signed};
-use super::{Comparison, Curves, Data, JSON_FILE, Variant};
+use super::words::{percent, seconds, short, signed};
+use super::{Comparison, Curves, Data, JSON_FILE, Line, Variant};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use std::ffi::OsStr;
@@ -275,22 +276,34 @@ fn legend(scale: Scale, shown: fn(f64) -> String) -> String {
     )
 }
 
-fn figure(curves_of: &Curves) -> String {
-    let lines: Vec<_> =
-        curves_of.lines.iter().map(|line| (line.variant, line.label.as_str(), &line.points[..])).collect();
-    let entry = |line: &super::Line| {
-        format!(
-            "<li><svg viewBox=\"0 0 24 8\"><path d=\"M0 4H24\" style=\"{}\"/></svg>{}</li>",
-            stroke(line.variant),
-            escaped(&line.label)
-        )
-    };
-    let legend: String = curves_of.lines.iter().map(entry).collect();
+/// The curves of a material, over a legend in HTML: labels may be long.
+fn figure(curves: &Curves) -> String {
+    let entry = |line: &Line| format!("<li>{}{}</li>", style(line).sample_svg(), escaped(&line.label));
+    let legend: String = curves.lines.iter().map(entry).collect();
     format!(
         "<figure><figcaption>{}</figcaption>{}<ul class=\"lines\">{legend}</ul></figure>",
-        escaped(&curves_of.title),
-        curves(&lines)
+        escaped(&curves.title),
+        drawn(curves).inline_svg()
     )
+}
+
+fn drawn(curves: &Curves) -> Figure {
+    let percent = |line: &Line| line.points.iter().map(|&[degrees, r]| [degrees, 100.0 * r]).collect();
+    let series: Vec<_> = curves.lines.iter().map(|line| Series { points: percent(line), style: style(line) }).collect();
+    let values = series.iter().flat_map(|series| series.points.iter().map(|point| point[1]));
+    let y = Axis::amounts("Reflectance R (%)", values);
+    let labels: Vec<_> = curves.lines.iter().map(|line| line.label.as_str()).collect();
+    Figure {
+        title: format!("Reflectance of {}", curves.title),
+        description: format!("against the angle of incidence: {}", labels.join(", ")),
+        panels: vec![Panel { title: String::new(), x: Axis::incidence(), y, series }],
+        columns: 1,
+        legend: Vec::new(),
+    }
+}
+
+fn style(line: &Line) -> Style {
+    line.variant.checked_sub(1).map_or_else(Style::reference, Style::nth)
 }
 
 fn source(data: &Data) -> String {

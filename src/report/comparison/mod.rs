@@ -1,10 +1,9 @@
-//! Variants of a scene beside each other: what is known of them, as numbers for JSON and for the page ([`html`]).
+//! Variants of a scene beside each other: what is known of them, as numbers for JSON and for the page (`html`).
 
 mod html;
 mod words;
 
 pub use html::{Pictures, page};
-pub use words::escaped;
 
 use super::{Difference, Noise};
 use crate::spectrum::About;
@@ -120,11 +119,11 @@ pub struct Data {
 }
 
 impl Data {
-    pub fn new(about: &About, used_by: &str) -> Self {
+    pub fn new(about: &About, used_by: Vec<String>) -> Self {
         let source = &about.source;
         Self {
             name: about.name.clone(),
-            used_by: vec![used_by.to_owned()],
+            used_by,
             title: source.title.clone(),
             authors: source.authors.clone(),
             journal: source.journal.clone(),
@@ -151,11 +150,4 @@ pub struct Line {
     pub label: String,
     /// Degrees, reflectance.
     pub points: Vec<[f64; 2]>,
-}
-
-impl Comparison {
-    /// The text of `report.json`.
-    pub fn json(&self) -> Result<String, serde_json::Error> {
-        serde_json::to_string_pretty(self)
-    }
 }

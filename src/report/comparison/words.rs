@@ -1,18 +1,5 @@
 //! Numbers and texts as a page shows them.
 
-/// Text that stands for itself in HTML, between tags and in quoted attributes.
-pub fn escaped(text: &str) -> String {
-    let sign = |c: char| match c {
-        '&' => "&amp;".to_owned(),
-        '<' => "&lt;".to_owned(),
-        '>' => "&gt;".to_owned(),
-        '"' => "&quot;".to_owned(),
-        '\'' => "&#39;".to_owned(),
-        c => c.to_string(),
-    };
-    text.chars().map(sign).collect()
-}
-
 /// Three significant digits.
 pub fn short(value: f64) -> String {
     if value == 0.0 {
@@ -54,11 +41,6 @@ pub fn seconds(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn texts_stand_for_themselves() {
-        assert_eq!(escaped("<a href=\"x\">'&'"), "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;");
-    }
 
     #[test]
     fn numbers_have_three_digits() {

@@ -5,16 +5,8 @@
 //! (or `source`, `engine`).
 
 use super::check::{Claim, Encoding};
-use crate::spectrum::nearest;
-use csv::{ReaderBuilder, StringRecord, Trim};
-
-/// What is wrong with a table, and in which line.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{}{message}", line.map_or_else(String::new, |line| format!("line {line}: ")))]
-pub struct ClaimsError {
-    pub line: Option<u64>,
-    pub message: String,
-}
+use crate::report::table::{Table, TableError, number};
+use csv::StringRecord;
 
 /// The names that a column goes by; the first is the one that errors tell.
 const MATERIAL: &[&str] = &["material", "name", "metal"];
@@ -28,33 +20,18 @@ const TABLE: &[&str] = &["table", "source", "engine"];
 const LARGEST: f64 = 2.0;
 
 /// The rows of a table.
-pub fn read(text: &[u8]) -> Result<Vec<Claim>, ClaimsError> {
-    let mut reader = ReaderBuilder::new().comment(Some(b'#')).trim(Trim::All).from_reader(text);
-    let headers = reader.headers().map_err(unreadable)?.clone();
-    let columns = Columns::of(&headers).map_err(|message| ClaimsError { line: None, message })?;
-    let claims = reader.records().map(|record| {
-        let record = record.map_err(unreadable)?;
-        let line = line(text, &record);
-        columns.claim(&record, line).map_err(|message| ClaimsError { line: Some(line), message })
+pub fn read(text: &[u8]) -> Result<Vec<Claim>, TableError> {
+    let mut table = Table::new(text)?;
+    let columns = Columns::of(&table)?;
+    let claims = table.rows().map(|row| {
+        let (line, record) = row?;
+        columns.claim(&record, line).map_err(|message| TableError { line: Some(line), message })
     });
     let claims = claims.collect::<Result<Vec<_>, _>>()?;
     match claims.is_empty() {
-        true => Err(ClaimsError { line: None, message: "the table has no rows".into() }),
+        true => Err(TableError { line: None, message: "the table has no rows".into() }),
         false => Ok(claims),
     }
-}
-
-/// The line of a record, from 1: its position is that of the comments before it.
-fn line(text: &[u8], record: &StringRecord) -> u64 {
-    let start = record.position().map_or(0, |position| position.byte() as usize).min(text.len());
-    let (before, rest) = text.split_at(start);
-    let skipped = |line: &&[u8]| line.trim_ascii().is_empty() || line.starts_with(b"#");
-    let comments = rest.split(|byte| *byte == b'\n').take_while(skipped).count();
-    (before.iter().filter(|byte| **byte == b'\n').count() + comments + 1) as u64
-}
-
-fn unreadable(error: csv::Error) -> ClaimsError {
-    ClaimsError { line: error.position().map(csv::Position::line), message: error.to_string() }
 }
 
 /// Where the values stand.
@@ -66,14 +43,9 @@ struct Columns {
 }
 
 impl Columns {
-    fn of(headers: &StringRecord) -> Result<Self, String> {
-        let found = [MATERIAL, RED, GREEN, BLUE, ENCODING].map(|names| (names[0], find(headers, names)));
-        if let [(_, Some(material)), (_, Some(r)), (_, Some(g)), (_, Some(b)), (_, Some(encoding))] = found {
-            return Ok(Self { material, rgb: [r, g, b], encoding, table: find(headers, TABLE) });
-        }
-        let missing = found.iter().filter(|(_, place)| place.is_none()).map(|(name, _)| told(name, headers));
-        let missing: Vec<_> = missing.collect();
-        Err(format!("the table has no column {}", missing.join(", ")))
+    fn of(table: &Table) -> Result<Self, TableError> {
+        let [material, r, g, b, encoding] = table.columns([MATERIAL, RED, GREEN, BLUE, ENCODING])?;
+        Ok(Self { material, rgb: [r, g, b], encoding, table: table.column(TABLE) })
     }
 
     fn claim(&self, record: &StringRecord, line: u64) -> Result<Claim, String> {
@@ -92,17 +64,8 @@ impl Columns {
     }
 }
 
-fn find(headers: &StringRecord, names: &[&str]) -> Option<usize> {
-    headers.iter().position(|header| names.contains(&header.to_lowercase().as_str()))
-}
-
-fn told(name: &str, headers: &StringRecord) -> String {
-    let near = if name.len() > 1 { nearest(name, headers.iter()) } else { None };
-    near.map_or_else(|| format!("`{name}`"), |header| format!("`{name}` (is it `{header}`?)"))
-}
-
 fn channel(name: &str, text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| format!("`{name}` is \"{text}\", expected a number"))?;
+    let value = number(name, text)?;
     if value.abs() <= LARGEST {
         return Ok(value);
     }

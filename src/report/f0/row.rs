@@ -10,7 +10,7 @@
 
 use super::{Color, Engines, Instrument};
 use crate::fresnel::{exact, quadrature};
-use crate::spectrum::{About, Confidence, Ior};
+use crate::spectrum::{About, Confidence, Ior, citation};
 use serde::Serialize;
 use std::sync::Arc;
 
@@ -152,9 +152,7 @@ impl Provenance {
 impl Provenance {
     /// First author and year.
     pub fn citation(&self) -> String {
-        let first =
-            self.authors.split([',', ';']).next().and_then(|first| first.split(" and ").next()).unwrap_or_default();
-        self.year.map_or_else(|| first.to_owned(), |year| format!("{first} {year}"))
+        citation(&self.authors, self.year)
     }
 
     /// Whether its numbers are known to be poor.

@@ -5,7 +5,7 @@
 
 use super::curve::{Lane, Over, Row};
 use crate::fresnel::FresnelModel;
-use crate::report::plot::{Axis, Dash, Figure, Ink, Key, PALETTE, Panel, Series, Style};
+use crate::report::plot::{Axis, Dash, Figure, INCIDENCE, Ink, Key, PALETTE, Panel, Series, Style};
 
 /// A figure of more panels is one that nobody reads.
 pub const MOST_PANELS: usize = 36;
@@ -15,9 +15,6 @@ const MOST_POLARISED: usize = 6;
 
 /// Legends name no more curves of a family than this, evenly chosen.
 const MOST_KEYS: usize = 12;
-
-/// Of the largest reflectance: what falls below is shown with its zero.
-const ZERO_BELOW: f64 = 0.5;
 
 /// What is at one wavelength, in one channel, or at one angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -168,7 +165,7 @@ impl<'a> Plan<'a> {
         let others = self.models.iter().filter(|&&other| other != FresnelModel::EXACT);
         match others.into_iter().position(|&other| other == model) {
             Some(place) => Style::nth(place),
-            None => Style::new(Ink::TEXT).width(3.0),
+            None => Style::reference(),
         }
     }
 
@@ -240,12 +237,7 @@ impl<'a> Plan<'a> {
             Some(Lane::Channel(_)) => "R in linear sRGB (%)",
             _ => "Reflectance R (%)",
         };
-        let values: Vec<f64> = self.of(material).flat_map(drawn).collect();
-        let [low, high] =
-            [values.iter().copied().fold(f64::INFINITY, f64::min), values.iter().copied().fold(0.0, f64::max)];
-        // Where most of the way to 0 is used up, the rest of it belongs to the picture.
-        let zero = (low < ZERO_BELOW * high).then_some(0.0);
-        let y = Axis::around(name, values.into_iter().chain(zero));
+        let y = Axis::amounts(name, self.of(material).flat_map(drawn));
         Panel { title, x: self.abscissa(), y, series }
     }
 
@@ -253,10 +245,8 @@ impl<'a> Plan<'a> {
         let places = || self.rows.iter().filter_map(|row| self.place(row));
         let [low, high] = [places().fold(f64::INFINITY, f64::min), places().fold(f64::NEG_INFINITY, f64::max)];
         match self.over {
-            Over::Angle if low <= 15.0 && high >= 75.0 => {
-                Axis::linear("Angle of incidence θ (°)", [0.0, 90.0]).every(15.0)
-            }
-            Over::Angle => Axis::around("Angle of incidence θ (°)", places()),
+            Over::Angle if low <= 15.0 && high >= 75.0 => Axis::incidence(),
+            Over::Angle => Axis::around(INCIDENCE, places()),
             Over::Wavelength => Axis::linear("Wavelength λ (nm)", [low, high]),
         }
     }

@@ -1,17 +1,16 @@
 //! The Fresnel models side by side, on interfaces that the caller names.
 //!
 //! - `curve`: reflectance of a model against angle and wavelength; `curve_plot`: its figure.
-//! - `errors`: how far a model is from the exact equations, in reflectance and in colour; `cost`: what it takes at a hit.
-//! - `text`: CSV, JSON and tables of both.
+//! - `errors`: how far a model is from the exact equations, in reflectance and in colour.
+//! - `text`: tables of both.
 
-pub mod cost;
 pub mod curve;
 pub mod curve_plot;
 pub mod errors;
 pub mod text;
 
-use crate::fresnel::{FresnelModel, Specimen};
-use crate::spectrum::{Ior, Spectrum};
+use crate::fresnel::{Fitted, FresnelModel, Ready, Specimen, Target};
+use crate::spectrum::{Colorimeter, Ior, LANES, Lanes, Spectrum};
 
 /// An interface that is asked about.
 #[derive(Clone, Debug)]
@@ -25,13 +24,14 @@ pub struct Subject<'a> {
     pub clear: bool,
 }
 
-static LOSSLESS: Spectrum = Spectrum::Constant(0.0);
+/// Wavelengths of a path, nm.
+const WAVELENGTHS: [f64; LANES] = [415.0, 455.0, 495.0, 535.0, 575.0, 615.0, 655.0, 695.0];
 
 impl<'a> Subject<'a> {
     /// A material seen from vacuum. Of a clear one the k is not looked at, as rendering does not: it colours what passes, not what is reflected.
     pub fn new(name: String, ior: &'a Ior, clear: bool) -> Self {
         let seen = Specimen::in_vacuum(ior);
-        let specimen = if clear { Specimen { k2: &LOSSLESS, ..seen } } else { seen };
+        let specimen = if clear { Specimen::clear(seen.n1, seen.n2) } else { seen };
         Self { name, data: ior.about.name.clone(), specimen, clear }
     }
 
@@ -46,8 +46,14 @@ impl<'a> Subject<'a> {
         Self { specimen: Specimen { n1: n2, n2: n1, k2 }, ..self }
     }
 
+    /// A model at the wavelengths of a path, to be timed; RGB models are spread over them by primaries that are flat.
+    pub fn ready(&self, model: FresnelModel, meter: &Colorimeter) -> Ready<LANES> {
+        let fitted = Fitted::new(model, &Target::new(self.specimen, meter));
+        Ready::new(fitted, &self.specimen, &WAVELENGTHS, [0.2, 0.5, 0.3].map(Lanes::splat), self.clear)
+    }
+
     /// Whether light comes from the denser of two clear media, by n at 550 nm.
-    pub fn from_the_denser_side(&self) -> bool {
+    fn seen_from_the_denser_side(&self) -> bool {
         let [n1, n2, _] = self.specimen.indices(550.0);
         self.clear && n1 > n2
     }
@@ -73,7 +79,7 @@ pub fn check(model: FresnelModel, subject: &Subject, wavelengths: bool) -> Resul
     match () {
         () if model.dielectrics_only() && !subject.clear => Err(Unfit::Conductor { model, name: name() }),
         () if rgb && wavelengths => Err(Unfit::NoWavelengths { model }),
-        () if rgb && subject.from_the_denser_side() => Err(Unfit::DenserSide { model, name: name() }),
+        () if rgb && subject.seen_from_the_denser_side() => Err(Unfit::DenserSide { model, name: name() }),
         () => Ok(()),
     }
 }

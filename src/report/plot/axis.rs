@@ -24,6 +24,12 @@ pub struct Axis {
 /// Ticks that an axis should not have more of.
 const MOST_TICKS: usize = 7;
 
+/// Of the largest amount: what falls below is shown with its zero.
+const ZERO_BELOW: f64 = 0.5;
+
+/// The name of an axis of angles.
+pub const INCIDENCE: &str = "Angle of incidence θ (°)";
+
 impl Axis {
     /// Exactly this range, which is widened where it has no width.
     pub fn linear(label: impl Into<String>, range: [f64; 2]) -> Self {
@@ -39,6 +45,19 @@ impl Axis {
         // A rounding above a tick is no reason for another one.
         let range = [(range[0] / step + 1e-6).floor() * step, (range[1] / step - 1e-6).ceil() * step];
         Self { ticks: multiples(range, step), ..Self::linear(label, range) }
+    }
+
+    /// A range around amounts: with their zero, but where that would take most of the room.
+    pub fn amounts(label: impl Into<String>, values: impl Iterator<Item = f64>) -> Self {
+        let values: Vec<f64> = values.collect();
+        let [low, high] = extent(values.iter().copied());
+        let zero = (low < ZERO_BELOW * high).then_some(0.0);
+        Self::around(label, values.into_iter().chain(zero))
+    }
+
+    /// All angles of incidence, degrees.
+    pub fn incidence() -> Self {
+        Self::linear(INCIDENCE, [0.0, 90.0]).every(15.0)
     }
 
     /// Whole decades around the values above 0.
@@ -153,7 +172,7 @@ mod tests {
         assert_eq!(labels([1e-9, 100.0 + 1e-9]), "0 20 40 60 80 100");
         assert_eq!(labels([-0.3, 0.2]), "−0.3 −0.2 −0.1 0.0 0.1 0.2");
         assert_eq!(labels([380.0, 780.0]), "300 400 500 600 700 800");
-        assert_eq!(Axis::linear("", [0.0, 90.0]).every(15.0).labels().join(" "), "0 15 30 45 60 75 90");
+        assert_eq!(Axis::incidence().labels().join(" "), "0 15 30 45 60 75 90");
     }
 
     #[test]
@@ -162,6 +181,13 @@ mod tests {
         assert!(flat.range[0] < 5.0 && flat.range[1] > 5.0 && flat.ticks.len() > 1);
         assert_eq!(Axis::around("", std::iter::empty()).range, [0.0, 1.0]);
         assert_eq!(Axis::around("", [f64::NAN, 0.0, 1.0].into_iter()).range, [0.0, 1.0]);
+    }
+
+    #[test]
+    fn amounts_have_their_zero_where_it_is_near() {
+        let range = |values: [f64; 2]| Axis::amounts("", values.into_iter()).range;
+        assert_eq!((range([40.0, 100.0]), range([60.0, 100.0])), ([0.0, 100.0], [60.0, 100.0]));
+        assert_eq!(range([-10.0, 10.0]), [-10.0, 10.0]);
     }
 
     #[test]

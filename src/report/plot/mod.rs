@@ -11,7 +11,7 @@
 mod axis;
 mod svg;
 
-pub use axis::{Axis, Scale};
+pub use axis::{Axis, INCIDENCE, Scale};
 
 /// Panels row by row over a legend.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,9 +25,17 @@ pub struct Figure {
     pub legend: Vec<Key>,
 }
 
+/// What a figure is drawn on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Paper {
+    Own,
+    Page,
+}
+
 /// One pair of axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
+    /// Takes no room if it is empty.
     pub title: String,
     pub x: Axis,
     pub y: Axis,
@@ -114,6 +122,11 @@ impl Style {
         Self { ink, dash: Dash::Solid, width: 1.5, marker: None }
     }
 
+    /// What others are compared with: thick, to lie below them.
+    pub fn reference() -> Self {
+        Self::new(Ink::TEXT).width(3.0)
+    }
+
     /// The nth of many curves: the palette's colours in turn, then the same ones dashed.
     pub fn nth(n: usize) -> Self {
         const DASHES: [Dash; 4] = [Dash::Solid, Dash::Dashed, Dash::Dotted, Dash::DashDotted];
@@ -132,11 +145,21 @@ impl Style {
     pub fn marker(self, marker: Marker) -> Self {
         Self { marker: Some(marker), ..self }
     }
+
+    /// A piece of the line for a legend in HTML, in a page that holds a figure with this ink.
+    pub fn sample_svg(self) -> String {
+        svg::sample(self)
+    }
 }
 
 impl Figure {
     /// The whole file.
     pub fn svg(&self) -> String {
-        svg::draw(self)
+        svg::draw(self, Paper::Own)
+    }
+
+    /// As a part of a page: on the page's ground, small, so that its text stays readable in a column.
+    pub fn inline_svg(&self) -> String {
+        svg::draw(self, Paper::Page)
     }
 }

@@ -1,6 +1,7 @@
 //! Draws a figure: sizes, style sheet, panels, legend.
 
-use super::{Axis, Dash, Figure, Ink, Key, Marker, Panel, Series, Style};
+use super::{Axis, Dash, Figure, Ink, Key, Marker, Panel, Paper, Series, Style};
+use crate::report::markup::html as escaped;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -9,7 +10,8 @@ const FONT: f64 = 12.0;
 /// From the left edge of a panel to its axis: tick labels, and the axis' name beside them.
 const LEFT: f64 = 56.0;
 const RIGHT: f64 = 18.0;
-const TOP: f64 = 28.0;
+/// With a title, and without.
+const TOP: [f64; 2] = [28.0, 12.0];
 const BOTTOM: f64 = 44.0;
 const TICK: f64 = 4.0;
 /// Space around the plotted area in which the ends of thick lines and markers still show.
@@ -29,17 +31,23 @@ struct Area {
     height: f64,
 }
 
-pub(super) fn draw(figure: &Figure) -> String {
+/// The whole figure.
+pub(super) fn draw(figure: &Figure, paper: Paper) -> String {
     let columns = figure.columns.clamp(1, figure.panels.len().max(1));
     let rows = figure.panels.len().div_ceil(columns);
-    let (width, height) = if figure.panels.len() == 1 { (460.0, 300.0) } else { (250.0, 180.0) };
-    let (across, down) = (LEFT + width + RIGHT, TOP + height + BOTTOM);
+    let large = paper == Paper::Own && figure.panels.len() == 1;
+    let (width, height) = if large { (460.0, 300.0) } else { (250.0, 180.0) };
+    let above = if figure.panels.iter().all(|panel| panel.title.is_empty()) { TOP[1] } else { TOP[0] };
+    let (across, down) = (LEFT + width + RIGHT, above + height + BOTTOM);
     let legend = legend(&figure.legend, across * columns as f64 - LEFT - RIGHT);
     let size = [across * columns as f64, down * rows as f64 + legend.height];
     let mut out = head(figure, size);
+    if paper == Paper::Own {
+        out.push_str("<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n");
+    }
     for (place, panel) in figure.panels.iter().enumerate() {
         let (row, column) = (place / columns, place % columns);
-        let area = Area { left: across * column as f64 + LEFT, top: down * row as f64 + TOP, width, height };
+        let area = Area { left: across * column as f64 + LEFT, top: down * row as f64 + above, width, height };
         let lowest = place + columns >= figure.panels.len();
         draw_panel(&mut out, panel, area, column == 0, lowest);
     }
@@ -69,8 +77,7 @@ fn head(figure: &Figure, [width, height]: [f64; 2]) -> String {
          .plot .paper{{fill:#fff}}.plot text{{fill:{text}}}.plot .axis{{stroke:{text};fill:none}}\
          .plot .grid{{stroke:#e3e3e3;fill:none}}.plot .line{{fill:none;stroke-linejoin:round}}.plot .mark{{fill:currentColor}}{light}\n\
          @media (prefers-color-scheme:dark){{.plot .paper{{fill:#15181c}}.plot text{{fill:{text_on_dark}}}\
-         .plot .axis{{stroke:{text_on_dark}}}.plot .grid{{stroke:#343a41}}{dark}}}</style>\n\
-         <rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n",
+         .plot .axis{{stroke:{text_on_dark}}}.plot .grid{{stroke:#343a41}}{dark}}}</style>\n",
         escaped(&figure.title),
         escaped(&figure.description),
     )
@@ -210,6 +217,14 @@ fn legend(keys: &[Key], room: f64) -> Legend {
     Legend { svg, height: if keys.is_empty() { 0.0 } else { rows as f64 * LEGEND_LINE + LEGEND_TOP } }
 }
 
+/// A line of the legend without its label.
+pub(super) fn sample(style: Style) -> String {
+    let mut out = format!("<svg class=\"plot\" viewBox=\"0 0 {SAMPLE} 8\" aria-hidden=\"true\">");
+    line(&mut out, &[[0.0, 4.0], [SAMPLE, 4.0]], style);
+    mark(&mut out, [SAMPLE / 2.0, 4.0], style);
+    out + "</svg>"
+}
+
 fn dashes(dash: Dash) -> &'static str {
     match dash {
         Dash::Solid => "",
@@ -226,10 +241,6 @@ fn hex([r, g, b]: [u8; 3]) -> String {
 /// The same wherever the ink is the same, so that two figures in a page agree.
 fn class(ink: Ink) -> String {
     format!("ink-{}-{}", &hex(ink.light)[1..], &hex(ink.dark)[1..])
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 #[cfg(test)]
@@ -282,6 +293,17 @@ mod tests {
         assert!(svg.contains("a&lt;b&gt;&amp;&quot;c&quot;") && !svg.contains("<b>"));
         assert!(svg.contains("s &amp; p") && svg.ends_with("</svg>\n"));
         assert_eq!(svg.matches("<svg").count(), svg.matches("</svg>").count());
+    }
+
+    #[test]
+    fn a_part_of_a_page_is_small_and_has_no_paper() {
+        let mut plain = figure("", 1);
+        plain.legend.clear();
+        let (own, inline) = (plain.svg(), plain.inline_svg());
+        assert!(own.contains("<rect class=\"paper\"") && own.contains("viewBox=\"0 0 534 356\""), "{own}");
+        assert!(!inline.contains("<rect") && inline.contains("viewBox=\"0 0 324 236\""), "{inline}");
+        let sample = plain.panels[0].series[0].style.sample_svg();
+        assert!(sample.contains("class=\"line ink-0072b2-58a9e0\"") && inline.contains(".plot .ink-0072b2-58a9e0{"));
     }
 
     #[test]

@@ -1,7 +1,8 @@
 //! Pages that need no other file: light and dark, readable on a phone.
 
-use super::Grid;
+use crate::report::Grid;
 use crate::report::f0::{Color, Row, Spread, Table};
+use crate::report::markup::html as escape;
 use crate::spectrum::{RgbSpace, hex_from_srgb};
 
 /// A page in parts.
@@ -187,21 +188,6 @@ fn with_swatch(cell: &str) -> String {
         Some(_) if cell.starts_with('#') => format!("<i class=\"dot\" style=\"background:{cell}\"></i> {cell}"),
         _ => escape(cell),
     }
-}
-
-fn escape(text: &str) -> String {
-    let mut escaped = String::new();
-    for character in text.chars() {
-        match character {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            '\'' => escaped.push_str("&#39;"),
-            other => escaped.push(other),
-        }
-    }
-    escaped
 }
 
 #[cfg(test)]

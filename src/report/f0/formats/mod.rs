@@ -1,14 +1,12 @@
 //! Reports as text: for a terminal, for documents, for programs, for a browser.
 
-mod grid;
 mod html;
 mod rows;
 mod verdicts;
 
-pub use grid::Grid;
 pub use html::Page;
 
-use grid::escape_markdown;
+use crate::report::{Grid, markup};
 use serde::Serialize;
 
 /// A form of text.
@@ -54,11 +52,11 @@ pub fn text(report: &impl Report, format: Format) -> Result<String, FormatError>
     let text = match format {
         Format::Table => with_notes(report.brief().text(), report.notes()),
         Format::Markdown => {
-            let notes = report.notes().iter().map(|note| format!("- {}", escape_markdown(note))).collect();
+            let notes = report.notes().iter().map(|note| format!("- {}", markup::markdown(note))).collect();
             with_notes(report.brief().markdown(), notes)
         }
         Format::Csv => report.full().csv()?,
-        Format::Json => serde_json::to_string_pretty(report)?,
+        Format::Json => markup::json(report)?,
         Format::Toml => toml::to_string(report)?,
         Format::Html => report.page().html(),
     };

@@ -1,6 +1,7 @@
 //! The columns of an F0 table.
 
-use super::{Grid, Page, Report};
+use super::{Page, Report};
+use crate::report::Grid;
 use crate::report::f0::{Color, Labels, Row, Table};
 
 /// Digits after the point where people read.

@@ -1,6 +1,7 @@
 //! The columns of verdicts on another table, and of metals that look like a colour.
 
-use super::{Grid, Page, Report};
+use super::{Page, Report};
+use crate::report::Grid;
 use crate::report::f0::check::{Checked, MATCH, NEAR, Nearest, Outcome, Verdict};
 use crate::report::f0::{Likeness, Likenesses};
 

@@ -1,6 +1,6 @@
 //! A table of texts, as columns, Markdown or CSV.
 
-use super::FormatError;
+use super::markup;
 
 /// Rows as long as the heading.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -23,7 +23,7 @@ impl Grid {
 
     /// A table of GitHub Flavored Markdown, readable as text too.
     pub fn markdown(&self) -> String {
-        let escape = |line: &Vec<String>| line.iter().map(|cell| escape_markdown(cell)).collect();
+        let escape = |line: &Vec<String>| line.iter().map(|cell| markup::markdown(cell)).collect();
         let escaped = Self { heading: escape(&self.heading), rows: self.rows.iter().map(escape).collect() };
         let columns = escaped.columns();
         let rule = |column: &Column| match column.numbers {
@@ -36,7 +36,7 @@ impl Grid {
         lines.iter().map(|line| format!("| {line} |\n")).collect()
     }
 
-    pub fn csv(&self) -> Result<String, FormatError> {
+    pub fn csv(&self) -> Result<String, csv::Error> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         for line in self.lines() {
             writer.write_record(line)?;
@@ -66,10 +66,10 @@ struct Column {
     numbers: bool,
 }
 
-/// Whether every cell is a number or nothing, and one is a number.
+/// Whether every cell is a number (a flag or a degree sign behind it) or nothing, and one is a number.
 fn are_numbers<'a>(cells: impl Iterator<Item = &'a String>) -> bool {
     let mut cells = cells.filter(|cell| !is_nothing(cell)).peekable();
-    cells.peek().is_some() && cells.all(|cell| cell.trim_end_matches(['\\', '*']).parse::<f64>().is_ok())
+    cells.peek().is_some() && cells.all(|cell| cell.trim_end_matches(['\\', '*', '°']).parse::<f64>().is_ok())
 }
 
 fn aligned(line: &[String], columns: &[Column], gap: &str) -> String {
@@ -87,19 +87,6 @@ fn is_nothing(cell: &str) -> bool {
 /// How many columns of a terminal a text takes; the library's texts are Latin.
 fn width(text: &str) -> usize {
     text.chars().count()
-}
-
-/// Without what Markdown reads as a table, markup or HTML.
-pub(super) fn escape_markdown(text: &str) -> String {
-    let mut escaped = String::new();
-    for character in text.chars() {
-        match character {
-            '|' | '\\' | '*' | '_' | '`' | '[' | ']' | '<' | '>' => escaped.extend(['\\', character]),
-            '\n' | '\r' => escaped.push(' '),
-            other => escaped.push(other),
-        }
-    }
-    escaped
 }
 
 #[cfg(test)]

@@ -1,0 +1,34 @@
+//! What a command line says of a picture in the place of the scene: size, samples, seed; and on how many threads.
+
+use crate::scene::Overrides;
+use clap::{Args, value_parser};
+
+#[derive(Debug, Args)]
+pub struct SettingsArgs {
+    /// Samples a pixel
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..))]
+    spp: Option<u32>,
+    /// Another seed gives another noise
+    #[arg(long, value_name = "S")]
+    seed: Option<u64>,
+    /// Threads, which change nothing but the time [default: all cores]
+    #[arg(long, value_name = "T", value_parser = value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// Width in pixels; the height follows if it is not given
+    #[arg(long, value_name = "W", value_parser = value_parser!(u32).range(1..))]
+    width: Option<u32>,
+    /// Height in pixels; the width follows if it is not given
+    #[arg(long, value_name = "H", value_parser = value_parser!(u32).range(1..))]
+    height: Option<u32>,
+}
+
+impl SettingsArgs {
+    pub fn overrides(&self) -> Overrides {
+        Overrides { width: self.width, height: self.height, samples: self.spp, seed: self.seed, ..Overrides::default() }
+    }
+
+    /// 0 is all cores.
+    pub fn threads(&self) -> usize {
+        usize::from(self.threads.unwrap_or(0))
+    }
+}
