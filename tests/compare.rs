@@ -211,6 +211,24 @@ fn an_earlier_report_is_replaced_by_force_only() {
     assert_eq!(left, 3, "the scene, `mine` and `out`");
 }
 
+/// Other programs write a `report.json` too, and people put their notes beside a report.
+#[test]
+fn force_throws_nothing_away_that_is_no_report() {
+    let folder = folder(&[("s.toml", SCENE)]);
+    let out = folder.path().join("out");
+    let again = ["compare", "s.toml", "-q", "-o", "out", "--force"];
+    for (file, content) in [("report.json", "{}"), ("notes.txt", "mine"), ("src/main.rs", "fn main() {}")] {
+        let path = out.join(file);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+        fs::write(path, content).expect("a file");
+    }
+    let said = refused(folder.path(), &again);
+    assert!(said.contains("out is not empty") && said.contains("no report"), "{said}");
+    assert!(out.join("notes.txt").is_file() && out.join("src/main.rs").is_file());
+    fs::remove_dir_all(out.join("src")).expect("removed");
+    assert!(refused(folder.path(), &again).contains("(`notes.txt`)"));
+}
+
 #[test]
 fn wrong_names_are_told_with_what_was_meant() {
     let folder = folder(&[("s.toml", SCENE)]);

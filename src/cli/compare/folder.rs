@@ -1,7 +1,8 @@
 //! A folder that appears whole or not at all: filled beside its place, then renamed to it.
 
-use crate::report::comparison::JSON_FILE;
+use crate::report::comparison::{HTML_FILE, JSON_FILE};
 use crate::scene::SceneError;
+use std::ffi::OsString;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -29,16 +30,19 @@ impl Folder {
         if path.exists() && !path.is_dir() {
             return Err(SceneError::new(format!("{shown} is a file: the report is a folder")));
         }
-        let occupied = path.is_dir() && fs::read_dir(path).map_err(|e| folder.failed(&e))?.next().is_some();
-        match (occupied, path.join(JSON_FILE).is_file(), force) {
-            (false, ..) | (true, true, true) => {}
-            (true, true, false) => {
+        let names = if path.is_dir() { folder.names().map_err(|e| folder.failed(&e))? } else { Vec::new() };
+        let foreign = names.iter().find(|name| !is_of_a_report(&path.join(name)));
+        let report = names.iter().any(|name| name == JSON_FILE);
+        match (names.is_empty(), report, foreign, force) {
+            (true, ..) | (false, true, None, true) => {}
+            (false, true, None, false) => {
                 let error = SceneError::new(format!("{shown} holds a report already"));
                 return Err(error.help("add --force to replace it, or name another folder with -o DIR"));
             }
-            (true, false, _) => {
+            (false, _, foreign, _) => {
+                let which = foreign.map_or(String::new(), |name| format!(" (`{}`)", name.display()));
                 let error = SceneError::new(format!(
-                    "{shown} is not empty, and what is in it is no report of `spectrel compare`"
+                    "{shown} is not empty, and what is in it is no report of `spectrel compare`{which}"
                 ));
                 return Err(error.help("name another folder with -o DIR; --force replaces earlier reports only"));
             }
@@ -62,6 +66,10 @@ impl Folder {
             });
         }
         fs::rename(fresh.path(), &self.path).map_err(failed)
+    }
+
+    fn names(&self) -> io::Result<Vec<OsString>> {
+        fs::read_dir(&self.path)?.map(|entry| entry.map(|entry| entry.file_name())).collect()
     }
 
     fn parent(&self) -> PathBuf {
@@ -88,4 +96,11 @@ impl Folder {
         // Without the name of the temporary folder: people know the target only.
         SceneError::new(format!("cannot write {}: {}", self.path.display(), error.kind()))
     }
+}
+
+/// Whether a report holds files of this name: whatever else lies in a folder is never thrown away.
+fn is_of_a_report(file: &Path) -> bool {
+    let picture = file.extension().is_some_and(|extension| extension == "png" || extension == "exr");
+    let report = file.file_name().is_some_and(|name| name == JSON_FILE || name == HTML_FILE);
+    file.is_file() && (picture || report)
 }
