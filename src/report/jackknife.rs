@@ -23,6 +23,10 @@ pub const MOST: usize = 16;
 const T_975: [f64; MOST - 1] =
     [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.160, 2.145, 2.131];
 
+/// At 0.995 (the same table).
+const T_995: [f64; MOST - 1] =
+    [63.657, 9.925, 5.841, 4.604, 4.032, 3.707, 3.499, 3.355, 3.250, 3.169, 3.106, 3.055, 3.012, 2.977, 2.947];
+
 impl Estimate {
     /// The jackknife's estimate from a number of all replicates and those of all but one, its bias removed.
     pub fn jackknife(all: f64, without: &[f64]) -> Self {
@@ -30,6 +34,13 @@ impl Estimate {
         let mean = without.iter().sum::<f64>() / count;
         let (value, reach) = (all - (count - 1.0) * (mean - all), reach(without));
         Self { value, interval_95: [value - reach, value + reach] }
+    }
+
+    /// Whether its 99 % interval, of so many replicates, leaves out 0.
+    pub fn is_not_zero(&self, replicates: usize) -> bool {
+        let place = replicates.clamp(2, MOST) - 2;
+        let reach = 0.5 * (self.interval_95[1] - self.interval_95[0]) * T_995[place] / T_975[place];
+        self.value.abs() > reach
     }
 }
 
@@ -55,6 +66,10 @@ mod tests {
         let half = 3.182 * (variance / 4.0).sqrt();
         assert!((estimate.value - 5.0).abs() < 1e-12);
         assert!((estimate.interval_95[0] - (5.0 - half)).abs() < 1e-12);
+        let wider = 5.841 * (variance / 4.0).sqrt();
+        for (value, expected) in [(1.01 * wider, true), (-1.01 * wider, true), (0.99 * wider, false), (0.0, false)] {
+            assert_eq!(Estimate { value, interval_95: [value - half, value + half] }.is_not_zero(4), expected);
+        }
     }
 
     /// The square of a mean is too large by the mean's variance, which is removed.

@@ -175,9 +175,10 @@ impl Sums {
 
     pub fn difference(&self, delta_e: &[f32]) -> Difference {
         let each = |sum: f64| sum / self.pixels.max(1.0);
-        let measured = self.delta_e2000(delta_e);
+        let (measured, energy) = (self.delta_e2000(delta_e), self.energy());
+        let differs = measured.interval_95[0] > 0.0 || energy.is_not_zero(self.energy.len());
         Difference {
-            verdict: match (self.differs, measured.interval_95[0] > 0.0) {
+            verdict: match (self.differs, differs) {
                 (false, _) => Verdict::Identical,
                 (true, false) => Verdict::Indistinguishable,
                 (true, true) => Verdict::Different,
@@ -186,7 +187,7 @@ impl Sums {
             rmse: each(self.square / 3.0).sqrt(),
             rmse_noise: each(self.square_noise / 3.0).sqrt(),
             rel_mse: each(self.relative_square / 3.0),
-            energy: self.energy(),
+            energy,
         }
     }
 
