@@ -232,7 +232,8 @@ fn force_throws_nothing_away_that_is_no_report() {
 #[test]
 fn wrong_names_are_told_with_what_was_meant() {
     let folder = folder(&[("s.toml", SCENE)]);
-    let cases: [(&[&str], &[&str]); 9] = [
+    let cases: [(&[&str], &[&str]); 10] = [
+        (&["--vary", "gold=silver", "--vary", "gold=silver"], &["`gold → silver` is named twice"]),
         (&["--models", "exact,schlik"], &["schlik", "did you mean `schlick`?"]),
         (&["--models", "exact,exact"], &["`exact` twice"]),
         (&["--models", "exact"], &["nothing to compare"]),

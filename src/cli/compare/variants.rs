@@ -74,6 +74,9 @@ pub fn variants(args: &CompareArgs) -> Result<Vec<Variant>, SceneError> {
         let error = SceneError::new("there is nothing to compare: one variant only");
         return Err(error.help("name more --models, or add --vary material=NAME or --ior material=DATASET"));
     }
+    if let Some(i) = (1..all.len()).find(|&i| all[..i].iter().any(|other| other.label == all[i].label)) {
+        return Err(SceneError::new(format!("the variant `{}` is named twice", all[i].label)));
+    }
     number_equal_names(&mut all);
     Ok(all)
 }
