@@ -139,3 +139,20 @@ fn a_difference_that_shows_in_the_sum_only_is_one() {
     assert!(share(&found, |difference| difference.delta_e2000.interval_95[0] == 0.0) > 0.8, "the case is not met");
     assert!(share(&found, |difference| difference.verdict == Verdict::Different) > 0.8);
 }
+
+/// What single precision rounds away is the same in every replicate, and no difference between pictures for all that.
+#[test]
+fn rounding_is_no_difference() {
+    let found = trials(20, |random| {
+        let a = noisy(&truth(1.0), 0.2, random);
+        let mut b = a.clone();
+        for xyz in b.iter_mut().flatten() {
+            if random.unit() < 0.02 {
+                *xyz = xyz.map(|c| c.next_down());
+            }
+        }
+        compare(&view(), &a, &b).difference
+    });
+    assert!(share(&found, |difference| difference.energy.interval_95[1] < 0.0) > 0.5, "the case is not met");
+    assert_eq!(share(&found, |difference| difference.verdict == Verdict::Indistinguishable), 1.0);
+}

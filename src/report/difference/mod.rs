@@ -13,7 +13,7 @@
 //! - a mean of lengths is too long, not too short, in expectation (Jensen). So the truth lies between T and M, and the interval is
 //!   from T to M and further by the jackknife's reach of each ([`super::jackknife`]). A picture is different if
 //!   the interval does not touch 0, or if the 99 % interval of its energy leaves out 0: a change of all pixels that is small beside the
-//!   noise of each shows in their sum only. Without a difference the jackknife's reach is about 1.5 times too wide (8 replicates; Efron &
+//!   noise of each shows in their sum only. What is no more than the rounding of single precision is none. Without a difference the jackknife's reach is about 1.5 times too wide (8 replicates; Efron &
 //!   Stein 1981): false alarms are rarer than the nominal 3.5 % (`tests/compare_statistics.rs`).
 //!
 //! Limits: ΔE2000 is no norm, and L*a*b* bends: where a pixel's noise is as large as its colour, M may fall short by the bend.
