@@ -192,7 +192,7 @@ fn names_and_options_that_are_none_are_refused_with_what_is_near() {
     assert!(refusal(&["--observer", "1931"]).contains("did you mean `1931-2`"));
     assert!(refusal(&["--space", "adobe"]).contains("srgb, display-p3, rec2020, acescg"));
     assert!(refusal(&["--adapt", "bradfrod"]).contains("did you mean `bradford`"));
-    assert!(refusal(&["--ior", "gold"]).contains("MATERIAL=DATA"));
+    assert!(refusal(&["--ior", "gold"]).contains("MATERIAL=DATASET"));
     assert!(refusal(&["gold", "--ior", "gold=Au/jonson-christy-1972"]).contains("Au/johnson-christy-1972"));
     assert!(refusal(&["gold", "--all"]).contains("cannot be used with"));
     assert!(refusal(&["--match", "#ffd891", "--all"]).contains("cannot be used with"));

@@ -168,6 +168,8 @@ fn other_data_sets_are_other_curves() {
 #[test]
 fn names_and_orders_that_people_mix_up() {
     assert_eq!(rows(&["gold", "Au", "--angles", "0"]).len(), 3);
+    let replaced = rows(&["gold", "--ior", "gold=Au/johnson-christy-1972", "--angles", "0"]);
+    assert_eq!(rows(&["gold", "Au", "--ior", "Au=Au/johnson-christy-1972", "--angles", "0"]), replaced);
     let figure = |angles: &str| said(&["gold", "--wavelengths", "550", "--angles", angles, "--format", "svg"]);
     assert_eq!(figure("60,0,80,30"), figure("0,30,60,80"));
 }
@@ -243,6 +245,8 @@ fn what_cannot_be_drawn_or_asked_is_told() {
         (&["gold", "--ior", "gold=Au/jonson"], &["did you mean `Au/johnson-christy-1972`?"]),
         (&["gold", "--ior", "silver=Ag/yang-2015"], &["`silver`", "not among", "gold"]),
         (&["gold", "--ior", "gold"], &["MATERIAL=DATASET"]),
+        (&["gold", "--ior", "gold=Au/rakic-1998-bb", "--ior", "Au=Au/rakic-1998-ld"], &["`gold` twice"]),
+        (&["gold", "-o", "a.png"], &["no `.png` file", ".svg"]),
         (&["gold", "--wavelengths", "380-780"], &["needs a step"]),
         (&["gold", "--angles", "0-100:10"], &["100 is not within 0 … 90"]),
         (&["gold", "--space", "srgb", "--over", "wavelength"], &["--space srgb"]),

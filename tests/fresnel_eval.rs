@@ -111,3 +111,13 @@ fn what_is_wrong_with_a_table_is_told() {
     let folder = folder(&[]);
     assert!(refused(folder.path(), &["fresnel", "eval", "--input", "none.csv"]).contains("none.csv"));
 }
+
+/// 1e-60 is 0 in single precision, and 1e60 infinite.
+#[test]
+fn what_single_precision_cannot_hold_is_told() {
+    for (row, says) in [("1,1e-60,0,0.5", "`n2` is 1e-60"), ("1,1.5,1e60,0.5", "`k2` is 1e60")] {
+        let folder = folder(&[("points.csv", &format!("n1,n2,k2,cos_i\n{row}\n"))]);
+        let said = refused(folder.path(), &["fresnel", "eval", "--precision", "f32", "--input", "points.csv"]);
+        assert!(said.contains(&format!("points.csv:2: {says}")) && said.contains("beyond the range of f32"), "{said}");
+    }
+}

@@ -1,8 +1,8 @@
 //! Materials and models that a command is about, without a scene: by name, and with other data sets in the place of theirs.
 
-use super::{LibraryArgs, pair};
+use super::{LibraryArgs, pair, show};
 use crate::fresnel::{FresnelModel, UnknownModel};
-use crate::scene::{Optics, SceneError, optics};
+use crate::scene::{Optics, SceneError, class_of, optics};
 use crate::spectrum::Library;
 use clap::Args;
 
@@ -35,8 +35,19 @@ impl DataArgs {
 
     /// Puts the data sets of the command line in the place of those that materials stand on.
     pub fn replace(&self, found: &mut [Optics], library: &Library) -> Result<(), SceneError> {
+        let mut done: Vec<String> = Vec::new();
         for (name, data) in &self.ior {
             let replaced = optics(name, Some(data), library)?;
+            if done.contains(&replaced.name) {
+                return Err(SceneError::new(format!("--ior names `{}` twice", replaced.name)));
+            }
+            done.push(replaced.name.clone());
+            if replaced.class != class_of(&replaced.ior) {
+                let kind = replaced.class.name();
+                show::warning(format_args!(
+                    "--ior {name}={data}: `{name}` is taken for a {kind}, which these data are not"
+                ));
+            }
             match found.iter_mut().find(|optics| optics.name == replaced.name) {
                 Some(place) => *place = replaced,
                 None => {

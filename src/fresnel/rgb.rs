@@ -66,7 +66,11 @@ impl<const N: usize> RgbFresnel<N> {
     fn dielectric(&self, n1: &Lanes<N>, n2: &Lanes<N>, cos_theta_i: &Lanes<N>) -> Dielectric<N> {
         let cos_theta_t = dielectric::cos_theta_t(n1, n2, cos_theta_i);
         let rarer = dielectric::on_the_rarer_side(n1, n2, cos_theta_i, &cos_theta_t);
-        let curve = Lanes::from_fn(|lane| self.lane(lane).reflectance(rarer[lane])[0]);
+        // From the rarer side, and before lanes part, one angle is that of all.
+        let curve = match rarer.0.iter().all(|cos| *cos == rarer[0]) {
+            true => self.reflectance(rarer[0]),
+            false => Lanes::from_fn(|lane| self.lane(lane).reflectance(rarer[lane])[0]),
+        };
         dielectric::bounded(n1, n2, &curve, cos_theta_t)
     }
 }

@@ -12,7 +12,7 @@ mod words;
 
 pub use error::{Place, SceneError, Text};
 pub use needs::{Decision, Needs, listed};
-pub use optics::{Class, Optics, optics};
+pub use optics::{Class, Optics, class_of, optics};
 pub use resolve::{Overrides, resolve};
 
 use crate::bsdf::conductor::MIRROR_ALPHA;

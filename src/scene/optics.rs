@@ -72,9 +72,13 @@ fn index(source: &Spanned<IndexSource>, name: &str, text: &Text, library: &Libra
 
 fn data_set(name: &str, library: &Library) -> Result<Optics, SpectrumError> {
     let ior = library.ior(name, Path::new(""))?;
+    Ok(Optics { name: ior.about.name.clone(), class: class_of(&ior), ior })
+}
+
+/// What data of which no material is known are taken for.
+pub fn class_of(ior: &Ior) -> Class {
     let mut visible = (LAMBDA_MIN_NM as u32..=LAMBDA_MAX_NM as u32).map(f64::from);
-    let class = if visible.any(|nm| ior.k.at(nm) > OPAQUE_K) { Class::Conductor } else { Class::Dielectric };
-    Ok(Optics { name: ior.about.name.clone(), class, ior })
+    if visible.any(|nm| ior.k.at(nm) > OPAQUE_K) { Class::Conductor } else { Class::Dielectric }
 }
 
 /// Of two ways to miss a name, the one that knows what was meant; a file that cannot be read is told in any case.

@@ -201,7 +201,7 @@ fn row(variant: &comparison::Variant) -> [String; 9] {
         format!("{low:.3}–{high:.3}"),
         format!("{:.3}", delta_e.noise),
         format!("{:.1}", delta_e.max),
-        format!("{:+.3}", 100.0 * difference.energy.value),
+        format!("{:+.3}", 100.0 * difference.energy.value).replace("-0.000", "0.000"),
         match difference.verdict {
             Verdict::Identical => "identical".into(),
             Verdict::Indistinguishable => "indistinguishable at this sample count".into(),

@@ -94,7 +94,7 @@ const ANGLES: Kind = Kind { option: "--angles", range: [0.0, 90.0], example: "0-
 const COSINES: Kind = Kind { option: "--cosines", range: [0.0, 1.0], example: "0-1:0.01" };
 
 pub fn run(args: &CurveArgs) -> Result<(), SceneError> {
-    let format = args.format();
+    let format = args.format()?;
     let grid = args.grid(format)?;
     let library = args.data.open()?;
     let optics = args.data.named(&args.materials, &library)?;
@@ -113,10 +113,16 @@ pub fn run(args: &CurveArgs) -> Result<(), SceneError> {
 }
 
 impl CurveArgs {
-    fn format(&self) -> Format {
+    fn format(&self) -> Result<Format, SceneError> {
         let extension = self.output.as_ref().and_then(|path| path.extension()).and_then(|name| name.to_str());
-        let by_name = extension.and_then(|name| Format::from_str(name, true).ok());
-        self.format.or(by_name).unwrap_or(Format::Csv)
+        match (self.format, extension) {
+            (Some(format), _) => Ok(format),
+            (None, None) => Ok(Format::Csv),
+            (None, Some(extension)) => Format::from_str(extension, true).map_err(|_| {
+                let message = format!("curves make no `.{extension}` file");
+                SceneError::new(message).help("name it .svg, .csv, .json or .md, or say --format")
+            }),
+        }
     }
 
     fn grid(&self, format: Format) -> Result<Grid, SceneError> {

@@ -48,7 +48,7 @@ fn evaluated(text: &[u8], precision: Precision) -> Result<Grid, TableError> {
     let mut answer = Grid::new(&heading, []);
     for row in table.rows() {
         let (line, record) = row?;
-        let point = point(&record, inputs).map_err(|message| TableError { line: Some(line), message })?;
+        let point = point(&record, inputs, precision).map_err(|message| TableError { line: Some(line), message })?;
         let results = match precision {
             Precision::F64 => double(point),
             Precision::F32 => single(point.map(|value| value as f32)),
@@ -63,8 +63,18 @@ fn evaluated(text: &[u8], precision: Precision) -> Result<Grid, TableError> {
     Ok(answer)
 }
 
+impl Precision {
+    /// Beyond these a square of an index, or of its square, has no place in the format.
+    fn largest(self) -> f64 {
+        match self {
+            Self::F64 => 1e70,
+            Self::F32 => 1e6,
+        }
+    }
+}
+
 /// The four numbers of a row, within what they can be.
-fn point(record: &StringRecord, inputs: [usize; 4]) -> Result<[f64; 4], String> {
+fn point(record: &StringRecord, inputs: [usize; 4], precision: Precision) -> Result<[f64; 4], String> {
     let mut point = [0.0; 4];
     for (slot, (column, name)) in inputs.into_iter().zip(INPUTS).enumerate() {
         let text = &record[column];
@@ -76,6 +86,15 @@ fn point(record: &StringRecord, inputs: [usize; 4]) -> Result<[f64; 4], String> 
         };
         if !(holds && value.is_finite()) {
             return Err(format!("`{name}` is {text}: it must be finite and {wants}"));
+        }
+        let largest = precision.largest();
+        let vanishes = precision == Precision::F32 && name.starts_with('n') && value < 1.0 / largest;
+        if value > largest || vanishes {
+            let format = if precision == Precision::F32 { "f32" } else { "f64" };
+            return Err(format!(
+                "`{name}` is {text}: beyond the range of {format} here, {:e} to {largest:e}",
+                1.0 / largest
+            ));
         }
         point[slot] = value;
     }

@@ -37,7 +37,8 @@ impl Report for Table {
             notes.push(format!("{} is a linear space: encoded values are the linear ones", self.conditions.space));
         }
         if self.materials.iter().any(|row| !row.f0.in_gamut) {
-            notes.push("* outside 0…1, printed unclipped; its hex is clipped".into());
+            let hex = if self.materials.iter().any(|row| row.f0.hex.is_some()) { "; its hex is clipped" } else { "" };
+            notes.push(format!("* outside 0…1, printed unclipped{hex}"));
         }
         if self.materials.iter().any(|row| !row.source.covers_visible) {
             notes.push("† ends inside the visible; beyond, its ends are held or its formula is extrapolated".into());
