@@ -36,6 +36,7 @@ pub mod image;
 pub mod light;
 pub mod memory;
 pub mod render;
+pub mod report;
 pub mod sampler;
 pub mod scene;
 pub mod spectrum;

@@ -1,5 +1,6 @@
 //! The command line: one file a command.
 
+pub mod effort;
 mod fresnel;
 mod inspect;
 mod interrupt;

@@ -1,0 +1,177 @@
+//! Renders that stop by their error: the promise holds, is not far from the truth, and the samples that decide bias nothing.
+
+mod common;
+
+use common::{film, scene};
+use spectrel::cli::effort::{Reached, Target, Work};
+use spectrel::film::{Develop, Exposure, Film, Gamut, Layers, Wanted, Window};
+use spectrel::render::{Kernel, Recorder};
+use spectrel::scene::{Needs, Overrides, Scene};
+use spectrel::spectrum::{RgbSpace, ciede2000, lab_from_xyz};
+use std::sync::LazyLock;
+use std::sync::atomic::AtomicBool;
+
+/// A rough and a smooth metal, a matt ball on a matt floor, a lamp, its light in the metals and what they throw on the floor, and sky.
+const SCENE: &str = "
+[render]
+width = 32
+height = 32
+[camera]
+position = [0, -6, 3]
+look_at = [0, 0, 0.6]
+fov = 30
+[picture]
+exposure = 3
+[environment.constant]
+spectrum = \"D65\"
+luminance = 2
+[[objects]]
+shape.disk = { radius = 1.2, center = [-2, -1, 4], normal = [0.4, 0.2, -0.8] }
+emission = { spectrum = \"D65\", luminance = 50 }
+[[objects]]
+material = \"grey\"
+shape.rectangle = { size = [20, 20] }
+[[objects]]
+material = \"rough gold\"
+shape.sphere = { radius = 0.7, center = [-0.9, 0, 0.7] }
+[[objects]]
+material = \"silver\"
+shape.sphere = { radius = 0.4, center = [0.3, -0.9, 0.4] }
+[[objects]]
+material = \"red\"
+shape.sphere = { radius = 0.6, center = [1, 0.2, 0.6] }
+[materials.grey.diffuse]
+reflectance = 0.4
+[materials.red.diffuse]
+reflectance = { rgb = [0.7, 0.1, 0.1] }
+[materials.\"rough gold\".conductor]
+ior = \"Au/olmon-2012-evaporated\"
+roughness = 0.2
+";
+
+fn develop(scene: &Scene) -> Develop {
+    let (space, gamut) = (RgbSpace::Srgb, Gamut::Clip);
+    Develop { exposure: Exposure::Ev(3.0), white: scene.picture.white, space, gamut }
+}
+
+/// Linear sRGB at a fixed exposure.
+fn developed(film: &Film, scene: &Scene) -> Vec<[f64; 3]> {
+    film.develop(&develop(scene)).expect("a picture").rgb.iter().map(|rgb| rgb.map(f64::from)).collect()
+}
+
+/// As good as without noise: 160 times the samples of the renders that are judged.
+static TRUTH: LazyLock<Vec<[f64; 3]>> = LazyLock::new(|| {
+    let scene = scene(SCENE, &Overrides { samples: Some(16_384), seed: Some(1 << 40), ..Overrides::default() });
+    developed(&film(&scene), &scene)
+});
+
+fn stopped(seed: u64, targets: &str, most: u64) -> (Vec<[f64; 3]>, Reached) {
+    let scene = scene(SCENE, &Overrides { seed: Some(seed), ..Overrides::default() });
+    let needs = Needs::of(&scene);
+    let kernel = Kernel::new(&scene, &needs);
+    let recorder = Recorder::new(&kernel, None, None);
+    let wanted = Wanted { replicates: true, ..Wanted::default() };
+    let mut layers = Layers::new([32, 32], Window::full(32, 32), wanted).expect("small");
+    let targets: Vec<Target> = targets.split(',').map(|target| target.parse().expect("a target")).collect();
+    let work = Work { recorder: &recorder, progress: &(), cancel: &AtomicBool::new(false), quiet: true };
+    let reached = work.for_error(&mut layers, (&targets, None, most), &develop(&scene)).expect("a picture");
+    (developed(layers.film(), &scene), reached)
+}
+
+/// ΔE2000 of every pixel against the truth, in ascending order.
+fn differences(rgb: &[[f64; 3]]) -> Vec<f64> {
+    let lab = |rgb: [f64; 3]| {
+        let space = RgbSpace::Srgb;
+        lab_from_xyz(space.xyz_from_rgb().apply(rgb), space.white_xyz())
+    };
+    let mut all: Vec<f64> = rgb.iter().zip(TRUTH.iter()).map(|(a, b)| ciede2000(lab(*a), lab(*b))).collect();
+    all.sort_by(f64::total_cmp);
+    all
+}
+
+fn rmse(rgb: &[[f64; 3]]) -> f64 {
+    let squares = rgb.iter().zip(TRUTH.iter()).flat_map(|(a, b)| (0..3).map(|c| (a[c] - b[c]) * (a[c] - b[c])));
+    (squares.sum::<f64>() / (3 * rgb.len()) as f64).sqrt()
+}
+
+/// How often of a hundred a promise is kept, and the median of what was promised over what is true.
+fn kept(targets: &str, error: impl Fn(&[[f64; 3]]) -> f64) -> (usize, f64) {
+    let mut ratios: Vec<f64> = (0..100)
+        .map(|seed| {
+            let (rgb, reached) = stopped(seed, targets, 1 << 16);
+            assert!(reached.met, "{reached}");
+            if seed == 0 { println!("SPP {}", reached.mean_samples); }
+            reached.bounds[0].promised / error(&rgb)
+        })
+        .collect();
+    ratios.sort_by(f64::total_cmp);
+    (ratios.iter().filter(|ratio| **ratio >= 1.0).count(), ratios[50])
+}
+
+#[test]
+fn the_promise_of_a_mean_difference_is_kept() {
+    let mean = |rgb: &[[f64; 3]]| differences(rgb).iter().sum::<f64>() / 1024.0;
+    let (kept, over) = kept("dE=1", mean);
+    println!("mean ΔE2000: {kept} of 100 kept, promised {over:.2} times the truth");
+    assert!(kept >= 90 && over <= 3.0, "{kept} {over}");
+}
+
+#[test]
+fn the_promise_of_a_percentile_is_kept() {
+    let (kept, over) = kept("dE95=4", |rgb| differences(rgb)[972]);
+    println!("95th percentile: {kept} of 100 kept, promised {over:.2} times the truth");
+    assert!(kept >= 90 && over <= 3.0, "{kept} {over}");
+}
+
+#[test]
+fn the_promise_of_a_root_mean_square_is_kept() {
+    let (kept, over) = kept("rmse=0.05", rmse);
+    println!("RMSE: {kept} of 100 kept, promised {over:.2} times the truth");
+    assert!(kept >= 90 && over <= 3.0, "{kept} {over}");
+}
+
+/// Were a pixel's samples to decide about themselves, pixels would be off in the mean.
+#[test]
+fn deciding_samples_bias_nothing() {
+    const RENDERS: u64 = 200;
+    let renders: Vec<Vec<[f64; 3]>> = (0..RENDERS).map(|seed| stopped(1000 + seed, "dE=2.5", 1 << 16).0).collect();
+    let n = RENDERS as f64;
+    let (mut chi, mut signed) = (0.0, 0.0);
+    for (pixel, truth) in TRUTH.iter().enumerate() {
+        let values = renders.iter().map(|rgb| rgb[pixel][1]);
+        let mean = values.clone().sum::<f64>() / n;
+        let variance = values.map(|value| (value - mean) * (value - mean)).sum::<f64>() / (n - 1.0);
+        let z = (mean - truth[1]) / (variance / n).sqrt();
+        chi += z * z / 1024.0;
+        signed += z / 1024.0;
+    }
+    println!("mean z {signed:.3}, mean z² {chi:.3}");
+    // Of 1,024 pixels: standard errors of 1/32 and √2/32, more for tails that are not normal.
+    assert!(signed.abs() < 4.0 / 32.0 && (0.75..1.35).contains(&chi), "{signed} {chi}");
+}
+
+#[test]
+fn a_limit_ends_it_and_is_told() {
+    let (_, reached) = stopped(3, "dE=0.001", 64);
+    assert!(!reached.met && reached.mean_samples == 64.0);
+    assert!(reached.to_string().contains("asked for 0.001"), "{reached}");
+}
+
+#[test]
+fn zz_control() {
+    let render = |text: &str, seed: u64, spp: u32| {
+        let scene = scene(text, &Overrides { samples: Some(spp), seed: Some(seed), ..Overrides::default() });
+        developed(&film(&scene), &scene)
+    };
+    let independent = SCENE.replace("height = 32", "height = 32\nsampler = \"independent\"");
+    let single: Vec<_> = (0..400).map(|seed| render(&independent, 5000 + seed, 4)).collect();
+    let var: Vec<f64> = (0..1024).map(|p| { let v: Vec<f64> = single.iter().map(|r| r[p][1]).collect(); let m = v.iter().sum::<f64>()/400.0; 4.0 * v.iter().map(|x| (x-m)*(x-m)).sum::<f64>()/399.0 }).collect();
+    for spp in [1024u32, 4096, 16384] {
+        for (name, text) in [("net", SCENE), ("independent", independent.as_str())] {
+            let a: Vec<_> = (0..4).map(|s| render(text, 100 + s, spp)).collect();
+            let mut out = 0.0;
+            for p in 0..1024 { let m = a.iter().map(|r| r[p][1]).sum::<f64>()/4.0; let v = a.iter().map(|r| (r[p][1]-m)*(r[p][1]-m)).sum::<f64>()/3.0; out += v / (var[p] / f64::from(spp)) / 1024.0; }
+            println!("CONTROL {name} {spp} variance over that of independent: {out:.3}");
+        }
+    }
+}
