@@ -11,6 +11,7 @@
 //!     → film              exact sums of XYZ in cd/m², and of what is asked for beside it
 //!     → film::develop     exposure, white balance, RGB space, gamut
 //!     → image             EXR with its layers, spectral EXR, PNG
+//!     → report            tables and comparisons, for people and for programs
 //! ```
 //!
 //! Parsing and resolving may fail; rendering cannot. `spectrum` and `fresnel` know no scene and are usable alone.

@@ -4,10 +4,10 @@ mod common;
 
 use common::{film, scene};
 use spectrel::cli::effort::{Reached, Target, Work};
-use spectrel::film::{Develop, Exposure, Film, Gamut, Layers, Wanted, Window};
-use spectrel::render::{Kernel, Recorder};
+use spectrel::film::{Develop, Exposure, Film, Gamut, Layers, Replicates, Wanted, Window};
+use spectrel::render::{Kernel, Recorder, render_layers, render_planned};
 use spectrel::scene::{Needs, Overrides, Scene};
-use spectrel::spectrum::{RgbSpace, ciede2000, lab_from_xyz};
+use spectrel::spectrum::{Matrix3, RgbSpace, ciede2000, lab_from_xyz};
 use std::sync::LazyLock;
 use std::sync::atomic::AtomicBool;
 
@@ -100,7 +100,6 @@ fn kept(targets: &str, error: impl Fn(&[[f64; 3]]) -> f64) -> (usize, f64) {
         .map(|seed| {
             let (rgb, reached) = stopped(seed, targets, 1 << 16);
             assert!(reached.met, "{reached}");
-            if seed == 0 { println!("SPP {}", reached.mean_samples); }
             reached.bounds[0].promised / error(&rgb)
         })
         .collect();
@@ -130,24 +129,43 @@ fn the_promise_of_a_root_mean_square_is_kept() {
     assert!(kept >= 90 && over <= 3.0, "{kept} {over}");
 }
 
+/// How far the mean of whole pictures over many renders is from the truth, in standard errors.
+fn off(renders: &[Vec<[f64; 3]>]) -> f64 {
+    let whole =
+        |rgb: &[[f64; 3]]| rgb.iter().zip(TRUTH.iter()).map(|(a, b)| (a[1] - b[1]) / (b[1] + 0.01)).sum::<f64>();
+    let (mean, error) = common::mean_and_error(&renders.iter().map(|rgb| whole(rgb)).collect::<Vec<_>>());
+    mean / error
+}
+
+/// A render whose pixels get 16 samples, and more by a plan that is made of them.
+fn planned(seed: u64, more: impl Fn(&Replicates) -> u64) -> Vec<[f64; 3]> {
+    let scene = scene(SCENE, &Overrides { seed: Some(seed), ..Overrides::default() });
+    let needs = Needs::of(&scene);
+    let kernel = Kernel::new(&scene, &needs);
+    let recorder = Recorder::new(&kernel, None, None);
+    let wanted = Wanted { replicates: true, ..Wanted::default() };
+    let mut layers = Layers::new([32, 32], Window::full(32, 32), wanted).expect("small");
+    render_layers(&recorder, &mut layers, 0..16, &(), &AtomicBool::new(false));
+    let plan: Vec<_> = layers.replicates().iter().map(|pixel| 16..16 + more(pixel)).collect();
+    render_planned(&recorder, &mut layers, &plan, &(), &AtomicBool::new(false));
+    developed(layers.film(), &scene)
+}
+
 /// Were a pixel's samples to decide about themselves, pixels would be off in the mean.
+///
+/// Means of skewed numbers have a z below 0 in the median, so renders that decide are held against such that do not.
 #[test]
 fn deciding_samples_bias_nothing() {
-    const RENDERS: u64 = 200;
-    let renders: Vec<Vec<[f64; 3]>> = (0..RENDERS).map(|seed| stopped(1000 + seed, "dE=2.5", 1 << 16).0).collect();
-    let n = RENDERS as f64;
-    let (mut chi, mut signed) = (0.0, 0.0);
-    for (pixel, truth) in TRUTH.iter().enumerate() {
-        let values = renders.iter().map(|rgb| rgb[pixel][1]);
-        let mean = values.clone().sum::<f64>() / n;
-        let variance = values.map(|value| (value - mean) * (value - mean)).sum::<f64>() / (n - 1.0);
-        let z = (mean - truth[1]) / (variance / n).sqrt();
-        chi += z * z / 1024.0;
-        signed += z / 1024.0;
-    }
-    println!("mean z {signed:.3}, mean z² {chi:.3}");
-    // Of 1,024 pixels: standard errors of 1/32 and √2/32, more for tails that are not normal.
-    assert!(signed.abs() < 4.0 / 32.0 && (0.75..1.35).contains(&chi), "{signed} {chi}");
+    let seeds = || 1000..1200;
+    let spread = |pixel: &Replicates| pixel.variance_of_mean(&Matrix3::IDENTITY)[1];
+    let evenly = off(&seeds().map(|seed| planned(seed, |_| 24)).collect::<Vec<_>>());
+    let deciding = off(&seeds().map(|seed| stopped(seed, "dE=2.5", 1 << 16).0).collect::<Vec<_>>());
+    let selfish = off(&seeds()
+        .map(|seed| planned(seed, |own| 8 * (40.0 * libm::cbrt(spread(own))).min(50.0) as u64))
+        .collect::<Vec<_>>());
+    println!("standard errors from the truth: evenly {evenly:.2}, deciding {deciding:.2}, by their own {selfish:.2}");
+    assert!(evenly.abs() < 3.5 && deciding.abs() < 3.5, "{evenly} {deciding}");
+    assert!(selfish.abs() > 7.0, "a bias must be seen: {selfish}");
 }
 
 #[test]
@@ -155,23 +173,4 @@ fn a_limit_ends_it_and_is_told() {
     let (_, reached) = stopped(3, "dE=0.001", 64);
     assert!(!reached.met && reached.mean_samples == 64.0);
     assert!(reached.to_string().contains("asked for 0.001"), "{reached}");
-}
-
-#[test]
-fn zz_control() {
-    let render = |text: &str, seed: u64, spp: u32| {
-        let scene = scene(text, &Overrides { samples: Some(spp), seed: Some(seed), ..Overrides::default() });
-        developed(&film(&scene), &scene)
-    };
-    let independent = SCENE.replace("height = 32", "height = 32\nsampler = \"independent\"");
-    let single: Vec<_> = (0..400).map(|seed| render(&independent, 5000 + seed, 4)).collect();
-    let var: Vec<f64> = (0..1024).map(|p| { let v: Vec<f64> = single.iter().map(|r| r[p][1]).collect(); let m = v.iter().sum::<f64>()/400.0; 4.0 * v.iter().map(|x| (x-m)*(x-m)).sum::<f64>()/399.0 }).collect();
-    for spp in [1024u32, 4096, 16384] {
-        for (name, text) in [("net", SCENE), ("independent", independent.as_str())] {
-            let a: Vec<_> = (0..4).map(|s| render(text, 100 + s, spp)).collect();
-            let mut out = 0.0;
-            for p in 0..1024 { let m = a.iter().map(|r| r[p][1]).sum::<f64>()/4.0; let v = a.iter().map(|r| (r[p][1]-m)*(r[p][1]-m)).sum::<f64>()/3.0; out += v / (var[p] / f64::from(spp)) / 1024.0; }
-            println!("CONTROL {name} {spp} variance over that of independent: {out:.3}");
-        }
-    }
 }

@@ -49,9 +49,9 @@ def weights():
     at = lambda values, nm: np.interp(FINE, nm, values, left=0.0, right=0.0)
     power = at(light["value"], light["wavelength_nm"])
     seen = np.array([at(observer[k], observer["wavelength_nm"]) * power for k in ("x", "y", "z")])
-    # Between half nanometres the product is a cubic: the trapezium is off by less than 1e-6, and the reader makes up for it.
-    step = np.full(FINE.size, 0.5)
-    step[[0, -1]] = 0.25
+    # Between whole nanometres the product of the three tables is a cubic, for which Simpson's rule is exact.
+    step = np.tile([1 / 3, 2 / 3], FINE.size // 2 + 1)[: FINE.size]
+    step[[0, -1]] = 1 / 6
     hats = np.array([np.interp(FINE, KNOTS, row) for row in np.eye(KNOTS.size)])
     sums = (seen * step) @ hats.T
     sums /= sums[1].sum()

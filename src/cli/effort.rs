@@ -3,7 +3,8 @@
 use super::show;
 use crate::film::{Develop, FilmError, Layers, REPLICATES};
 use crate::render::{PASS, Progress, Recorder, render_layers, render_planned};
-use crate::report::noise::{Bound, Noise, Viewing};
+use crate::report::View;
+use crate::report::noise::{Bound, Noise, half};
 use crate::report::plan::Shares;
 use crate::scene::SceneError;
 use clap::Args;
@@ -191,28 +192,52 @@ impl Work<'_> {
         let started = Instant::now();
         let first = FIRST.min(most).max(REPLICATES as u64);
         render_layers(self.recorder, layers, 0..first, self.progress, self.cancel);
-        let mut noise = look(layers, develop)?;
-        let shares = self.shares(&noise, targets, layers);
-        let mut mean = first as f64;
+        let (width, view) = viewed(layers, develop)?;
+        let shares = self.shares(&Noise::of_each(layers.replicates(), width, &view), targets, layers);
+        let mut means = [first as f64; 2];
         loop {
-            let bounds: Vec<Bound> = targets.iter().map(|target| target.measure.of(&noise)).collect();
-            let excess =
-                targets.iter().zip(&bounds).map(|(target, bound)| bound.promised / target.bound).fold(0.0, f64::max);
+            let bounds = of_all(targets, &look(layers, develop)?);
+            let mean = 0.5 * (means[0] + means[1]);
             self.tell(mean, targets, &bounds);
-            let pace = started.elapsed().as_secs_f64() / mean;
-            let affordable = time.map_or(f64::INFINITY, |time| time.as_secs_f64() / pace);
-            let reached = Reached { bounds, targets: targets.to_vec(), mean_samples: mean, met: excess <= 1.0 };
-            if reached.met || mean >= most as f64 || affordable < mean * 1.05 || self.cancelled() {
+            let affordable =
+                time.map_or(f64::INFINITY, |time| time.as_secs_f64() * mean / started.elapsed().as_secs_f64());
+            let met = excess(targets, &bounds) <= 1.0;
+            let reached = Reached { bounds, targets: targets.to_vec(), mean_samples: mean, met };
+            if mean >= most as f64 || affordable < mean * 1.05 || self.cancelled() {
                 return Ok(reached);
             }
-            // Errors fall at least as the root of the samples.
-            let next = (mean * excess * excess * AHEAD).clamp(mean * STEP.0, mean * STEP.1).min(affordable);
-            mean = next.min(most as f64);
+            let next = self.next(layers, develop, targets, means)?;
+            if met && next == means {
+                return Ok(reached);
+            }
+            // Where either half finds the other one quiet enough, but both together are not, both go on.
+            let next = if next == means { means.map(|mean| mean * STEP.0) } else { next };
+            means = next.map(|mean| mean.min(affordable).min(most as f64));
             let has = layers.film().pixels().iter().map(|pixel| u64::from(pixel.count()) + u64::from(pixel.rejected()));
-            let plan = shares.ranges(has, mean, REPLICATES as u64);
+            let plan = shares.ranges(has, |at| means[half(at, width)], REPLICATES as u64);
             render_planned(self.recorder, layers, &plan, self.progress, self.cancel);
-            noise = look(layers, develop)?;
         }
+    }
+
+    /// How many samples either half of the picture is to have, as the other half tells.
+    fn next(
+        &self,
+        layers: &Layers,
+        develop: &Develop,
+        targets: &[Target],
+        means: [f64; 2],
+    ) -> Result<[f64; 2], FilmError> {
+        let (width, view) = viewed(layers, develop)?;
+        Ok([0, 1].map(|which| {
+            let other = Noise::of_half(layers.replicates(), width, &view, 1 - which);
+            // As if it had as many samples.
+            let excess = excess(targets, &of_all(targets, &other)) * (means[1 - which] / means[which]).sqrt();
+            match excess <= 1.0 {
+                true => means[which],
+                // Errors fall at least as the root of the samples.
+                false => (means[which] * excess * excess * AHEAD).clamp(means[which] * STEP.0, means[which] * STEP.1),
+            }
+        }))
     }
 
     fn shares(&self, noise: &Noise, targets: &[Target], layers: &Layers) -> Shares {
@@ -235,10 +260,24 @@ impl Work<'_> {
     }
 }
 
-/// The noise of what there is, at the exposure of what there is.
-pub fn look(layers: &Layers, develop: &Develop) -> Result<Noise, FilmError> {
+fn of_all(targets: &[Target], noise: &Noise) -> Vec<Bound> {
+    targets.iter().map(|target| target.measure.of(noise)).collect()
+}
+
+/// The largest share of a target that is promised.
+fn excess(targets: &[Target], bounds: &[Bound]) -> f64 {
+    targets.iter().zip(bounds).map(|(target, bound)| bound.promised / target.bound).fold(0.0, f64::max)
+}
+
+/// The width of what there is, and how it is looked at, at the exposure of what there is.
+fn viewed(layers: &Layers, develop: &Develop) -> Result<(usize, View), FilmError> {
     let ev = develop.exposure.ev(layers.film().pixels().iter().map(|pixel| pixel.mean()[1]))?;
-    Ok(Noise::of(layers.replicates(), &Viewing::new(develop, ev)?))
+    Ok((layers.film().window().width as usize, View::new(ev, develop.white)))
+}
+
+fn look(layers: &Layers, develop: &Develop) -> Result<Noise, FilmError> {
+    let (width, view) = viewed(layers, develop)?;
+    Ok(Noise::of(layers.replicates(), width, &view))
 }
 
 /// What was asked for and what was reached.

@@ -177,7 +177,7 @@ fn summary(film: &Film, started: Instant) {
     show::note(format_args!("{width} × {height} pixels, {each} samples each: {seconds:.1} s, {rate:.2} M samples/s"));
 }
 
-fn window([x0, y0, x1, y1]: [u32; 4]) -> Window {
+pub fn window([x0, y0, x1, y1]: [u32; 4]) -> Window {
     Window { x0, y0, width: x1 - x0, height: y1 - y0 }
 }
 
@@ -191,7 +191,7 @@ fn report(developed: &Developed, quiet: bool) {
     developed.report.warnings().iter().for_each(show::warning);
 }
 
-fn development(scene: &Scene) -> Develop {
+pub fn development(scene: &Scene) -> Develop {
     Develop {
         exposure: match scene.picture.exposure {
             ExposureValue::Auto => Exposure::Auto,
@@ -207,10 +207,10 @@ fn development(scene: &Scene) -> Develop {
 }
 
 /// What determines the picture.
-fn metadata(scene: &Scene, identity: u64, film: &Film, developed: &Developed) -> Metadata {
+pub fn metadata(scene: &Scene, identity: u64, film: &Film, developed: &Developed) -> Metadata {
     let settings = &scene.settings;
     let [x0, y0, x1, y1] = settings.crop;
-    Metadata::new()
+    let metadata = Metadata::new()
         .with("version", env!("CARGO_PKG_VERSION"))
         .with("scene", format!("{identity:016x}"))
         .with("size", format!("{}x{}", settings.width, settings.height))
@@ -221,11 +221,19 @@ fn metadata(scene: &Scene, identity: u64, film: &Film, developed: &Developed) ->
         .with("fresnel", settings.fresnel.map_or("by material", FresnelModel::name))
         .with("exposure", format!("{} EV", developed.ev))
         .with("white", &scene.picture.white_balance)
-        .with("observer", &scene.picture.observer.about.name)
+        .with("observer", &scene.picture.observer.about.name);
+    // Only where something was replaced: other pictures keep the bytes that they had.
+    let metadata = with_pairs(metadata, "ior", &settings.ior);
+    with_pairs(metadata, "vary", &settings.vary)
+}
+
+fn with_pairs(metadata: Metadata, key: &str, pairs: &[(String, String)]) -> Metadata {
+    let pairs: Vec<_> = pairs.iter().map(|(material, by)| format!("{material}={by}")).collect();
+    if pairs.is_empty() { metadata } else { metadata.with(key, pairs.join(", ")) }
 }
 
 /// Identifies what is rendered: the texts of scene and materials, and every spectrum that came of them.
-fn fingerprint(scene: &Scene) -> u64 {
+pub fn fingerprint(scene: &Scene) -> u64 {
     let texts: String = scene.sources.iter().map(|text| text.content.as_str()).collect();
     // A file that can no longer be read is told apart by its name.
     let hash = |path: &PathBuf| (path.file_name().map(OsStr::to_owned), fs::read(path).ok().map(|b| fnv1a_64(&b)));

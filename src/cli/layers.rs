@@ -5,7 +5,8 @@ use crate::film::{Develop, Developed, FilmError, Layers, REPLICATES, Replicates,
 use crate::image::channels::FAR;
 use crate::image::{Channel, ExrSpace, Extra, Format, Metadata, spectral};
 use crate::render::{FirstHit, Guides, Kernel, Recorder, first_hits};
-use crate::report::noise::{Noise, Viewing};
+use crate::report::View;
+use crate::report::noise::Noise;
 use crate::scene::{Needs, Scene, SceneError};
 use crate::spectrum::{Bins, Matrix3, RgbSpace};
 use clap::{Args, ValueEnum};
@@ -138,7 +139,10 @@ impl Plan {
         }
         if self.has(Aov::Noise) {
             let counts = layers.film().pixels().iter().map(|pixel| pixel.count() as f32);
-            channels.push(Channel::new("noise.dE", Noise::of(layers.replicates(), &picture.viewing).de));
+            channels.push(Channel::new(
+                "noise.dE",
+                Noise::of(layers.replicates(), layers.film().window().width as usize, &picture.viewing).de,
+            ));
             channels.push(Channel::new("samples.N", counts.collect()));
         }
         channels.extend(self.of_first_hits(scene, layers.film().window()));
@@ -179,13 +183,13 @@ pub struct Picture {
     from_xyz: Matrix3,
     /// From linear RGB.
     from_rgb: Matrix3,
-    viewing: Viewing,
+    viewing: View,
 }
 
 impl Picture {
     /// Of a film that was developed so.
     pub fn new(developed: &Developed, develop: &Develop, space: ExrSpace) -> Result<Self, FilmError> {
-        let viewing = Viewing::new(develop, developed.ev)?;
+        let viewing = View::new(developed.ev, developed.white);
         Ok(match space {
             ExrSpace::Rgb => Self { from_xyz: develop.matrix(developed.ev)?, from_rgb: Matrix3::IDENTITY, viewing },
             ExrSpace::Xyz => Self { from_xyz: Matrix3::IDENTITY, from_rgb: developed.space.xyz_from_rgb(), viewing },

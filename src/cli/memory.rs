@@ -12,6 +12,11 @@ const CHANNEL_BYTES: usize = 12;
 
 /// For a film of so many bytes a pixel, and so many channels made of it beside the picture.
 pub fn check(window: Window, film_bytes: u64, channels: usize) -> Result<(), SceneError> {
+    check_or(window, film_bytes, channels, "render it in parts with --crop x0,y0,x1,y1")
+}
+
+/// The same with advice of one's own.
+pub fn check_or(window: Window, film_bytes: u64, channels: usize, advice: &str) -> Result<(), SceneError> {
     let a_pixel = film_bytes as f64 + DEVELOPED_BYTES + (CHANNEL_BYTES * channels) as f64;
     let needed = f64::from(window.width) * f64::from(window.height) * a_pixel;
     match available_bytes() {
@@ -23,7 +28,7 @@ pub fn check(window: Window, film_bytes: u64, channels: usize) -> Result<(), Sce
                 needed / GIB,
                 available / GIB
             );
-            Err(SceneError::new(message).help("render it in parts with --crop x0,y0,x1,y1"))
+            Err(SceneError::new(message).help(advice))
         }
         _ => Ok(()),
     }

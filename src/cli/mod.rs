@@ -1,6 +1,8 @@
 //! The command line: one file a command.
 
+mod compare;
 pub mod effort;
+mod f0;
 mod fresnel;
 mod inspect;
 mod interrupt;
@@ -52,6 +54,10 @@ enum Command {
     Inspect(inspect::InspectArgs),
     /// List the materials, spectra or illuminants that scenes can name, with their sources
     List(list::ListArgs),
+    /// Render variants of a scene with the same random numbers, and report how far they are apart
+    Compare(compare::CompareArgs),
+    /// Colours of materials at normal incidence and beyond, with their sources, as tables for people and engines
+    F0(f0::F0Args),
     /// The Fresnel equations by themselves, without a scene
     Fresnel(fresnel::FresnelArgs),
 }
@@ -83,8 +89,20 @@ impl LibraryArgs {
 
 impl SceneArgs {
     fn read(&self) -> Result<Text, SceneError> {
-        let Some(path) = &self.scene else { return Ok(Text::new(DEFAULT_SCENE.0, DEFAULT_SCENE.1)) };
-        read_text(path)
+        scene_text(self.scene.as_deref(), DEFAULT_SCENE)
+    }
+}
+
+/// A scene file, or a built-in one.
+fn scene_text(path: Option<&Path>, (name, content): (&str, &str)) -> Result<Text, SceneError> {
+    path.map_or_else(|| Ok(Text::new(name, content)), read_text)
+}
+
+/// An option's `MATERIAL=NAME`.
+fn pair(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=').map(|(material, name)| (material.trim(), name.trim())) {
+        Some((material, name)) if !material.is_empty() && !name.is_empty() => Ok((material.into(), name.into())),
+        _ => Err("expected a material of the scene, `=` and a name, such as gold=silver".into()),
     }
 }
 
@@ -148,6 +166,8 @@ pub fn main() -> ExitCode {
         Some(Command::Render(args)) => render::run(&args),
         Some(Command::Inspect(args)) => inspect::run(&args),
         Some(Command::List(args)) => list::run(&args),
+        Some(Command::Compare(args)) => compare::run(&args),
+        Some(Command::F0(args)) => f0::run(&args),
         Some(Command::Fresnel(args)) => fresnel::run(&args),
     };
     match outcome {

@@ -5,7 +5,7 @@ use super::interrupt::Interrupt;
 use super::job::Job;
 use super::layers::LayerArgs;
 use super::preview::{DEFAULT_HOST, Preview};
-use super::{SceneArgs, show, watch};
+use super::{SceneArgs, pair, show, watch};
 use crate::fresnel::FresnelModel;
 use crate::image::{self, Bits, ExrSpace, Options};
 use crate::scene::{Overrides, SceneError, Text, resolve};
@@ -40,6 +40,10 @@ pub struct RenderArgs {
     crop: Option<[u32; 4]>,
     #[arg(long, value_name = "MODEL", value_parser = model, help = format!("Fresnel model for every material: {}", FresnelModel::NAMES.join(", ")))]
     fresnel: Option<FresnelModel>,
+    /// Take another data set of n and k for a material of the scene, such as gold=Au/johnson-christy-1972 (`spectrel list
+    /// spectra` shows them, and a .csv, .yml or .toml file of yours will do); can be repeated
+    #[arg(long, value_name = "MATERIAL=DATASET", value_parser = pair)]
+    ior: Vec<(String, String)>,
     /// Wavelengths a path carries [default: 8]
     #[arg(long, value_name = "1|4|8", value_parser = lanes)]
     lanes: Option<u32>,
@@ -76,7 +80,7 @@ fn crop(text: &str) -> Result<[u32; 4], String> {
     numbers.map_err(|_| expected())?.try_into().map_err(|_| expected())
 }
 
-fn model(name: &str) -> Result<FresnelModel, String> {
+pub fn model(name: &str) -> Result<FresnelModel, String> {
     name.parse().map_err(|error: crate::fresnel::UnknownModel| error.to_string())
 }
 
@@ -105,6 +109,8 @@ impl RenderArgs {
             seed: self.seed,
             fresnel: self.fresnel,
             lanes: self.lanes,
+            ior: self.ior.clone(),
+            vary: Vec::new(),
         }
     }
 

@@ -8,7 +8,7 @@
 //! and in gAMA and cHRM for readers that know neither.
 
 use png::chunk::ChunkType;
-use png::{BitDepth, ColorType, Encoder, ScaledFloat, SourceChromaticities, SrgbRenderingIntent};
+use png::{BitDepth, ColorType, Compression, Encoder, ScaledFloat, SourceChromaticities, SrgbRenderingIntent};
 
 use super::{Bits, Encoded, ImageError, Metadata};
 use crate::film::Developed;
@@ -20,6 +20,21 @@ pub fn encode(developed: &Developed, bits: Bits, metadata: &Metadata) -> Result<
     write(&mut bytes, developed, bits, metadata)
         .map_err(|e| ImageError::Encode { format: "PNG", reason: e.to_string() })?;
     Ok(Encoded { bytes, beyond_half: 0 })
+}
+
+/// The PNG file of pixels that are sRGB-encoded already, 8 bits a channel: maps, packed for speed rather than size.
+pub fn encode_srgb8(width: u32, height: u32, pixels: &[u8]) -> Result<Vec<u8>, ImageError> {
+    let mut bytes = Vec::new();
+    let mut encoder = Encoder::new(&mut bytes, width, height);
+    encoder.set_color(ColorType::Rgb);
+    encoder.set_compression(Compression::Fast);
+    encoder.set_source_srgb(SrgbRenderingIntent::RelativeColorimetric);
+    let written = encoder.write_header().and_then(|mut writer| {
+        writer.write_image_data(pixels)?;
+        writer.finish()
+    });
+    written.map_err(|e| ImageError::Encode { format: "PNG", reason: e.to_string() })?;
+    Ok(bytes)
 }
 
 fn write(

@@ -37,7 +37,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    fn row_of_lanes(&self) -> fn(&Self, &mut LayersRow, [u32; 2], &dyn Fn(usize) -> Range<u64>) {
+    fn row_of_lanes(&self) -> RenderRow<'a> {
         match self.kernel.scene.settings.lanes {
             1 => Self::row::<1>,
             4 => Self::row::<4>,
@@ -70,6 +70,9 @@ impl<'a> Recorder<'a> {
         }
     }
 }
+
+/// Renders a row of pixels, given where it begins and which samples each of them gets.
+type RenderRow<'a> = fn(&Recorder<'a>, &mut LayersRow, [u32; 2], &dyn Fn(usize) -> Range<u64>);
 
 /// The random numbers of a pixel's samples: of one net, or of independent ones in turn.
 enum Numbers {

@@ -1,4 +1,30 @@
-//! What a picture is worth: error measures, and how the work is spent that brings them down.
+//! What people read: tables, curves, and how far pictures are apart.
+//!
+//! - `f0`: colours of interfaces at normal incidence, at 82° and averaged, for tables and for checking those of others.
+//! - `fresnel`: reflectance curves, and the errors of approximations.
+//! - `view`: radiances as a display shows them; `difference`: two pictures compared, replicate by replicate.
+//! - `noise`: how far a picture is from the one without noise; `plan`: which pixel gets how many samples.
+//! - `jackknife`: what independent replicates say of a number's error.
+//! - `comparison`: variants of a scene beside each other, as one HTML page and as JSON.
+//! - `plot`, `curves`, `colormap`: figures in SVG, lines in a small one, numbers as colours.
+//! - `timing`: what one evaluation costs.
+//!
+//! Numbers in, text and pixels out: this room knows no scene.
 
+pub mod colormap;
+pub mod comparison;
+pub mod curves;
+pub mod difference;
+pub mod f0;
+pub mod fresnel;
+pub mod jackknife;
 pub mod noise;
 pub mod plan;
+pub mod plot;
+pub mod timing;
+pub mod view;
+
+pub use comparison::Comparison;
+pub use difference::{Difference, Noise, Verdict};
+pub use jackknife::Estimate;
+pub use view::View;

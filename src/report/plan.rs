@@ -4,7 +4,9 @@
 //!
 //! A pixel whose own first samples decided how many it gets would be biased: where they happen to be alike, it gets few, and what is rare in
 //! it is missed for good. Here σₚ is that of the pixels around it, without itself, and of the first samples alone, so the number of a
-//! pixel's samples and their values are independent but for the common factor, and its mean is what it is without any plan
+//! pixel's samples and their values are independent but for the common factor. When to stop is decided for either half of a chessboard by the
+//! noise of the other ([`super::noise::half`]), for the same reason: a picture that stops when it happens to look quiet is darker in the mean.
+//! So a pixel's mean is what it is without any plan
 //! (`tests/target_error.rs`).
 
 use std::ops::Range;
@@ -35,10 +37,10 @@ impl Shares {
         Self(bounded.iter().map(|share| share / mean).collect())
     }
 
-    /// Samples of each pixel from those that it has to those of a mean number, in whole `steps`; never fewer than it has.
-    pub fn ranges(&self, has: impl Iterator<Item = u64>, mean: f64, step: u64) -> Vec<Range<u64>> {
-        let wanted = |share: f64| libm::round(share * mean / step as f64) as u64 * step;
-        self.0.iter().zip(has).map(|(share, has)| has..wanted(*share).max(has)).collect()
+    /// Samples of each pixel from those that it has to its share of what is the mean where it lies, in whole steps; never fewer than it has.
+    pub fn ranges(&self, has: impl Iterator<Item = u64>, mean: impl Fn(usize) -> f64, step: u64) -> Vec<Range<u64>> {
+        let wanted = |(at, share): (usize, &f64)| libm::round(share * mean(at) / step as f64) as u64 * step;
+        self.0.iter().enumerate().zip(has).map(|(place, has)| has..wanted(place).max(has)).collect()
     }
 }
 
@@ -87,8 +89,8 @@ mod tests {
     #[test]
     fn ranges_go_on_where_they_ended() {
         let shares = Shares(vec![0.5, 1.5]);
-        assert_eq!(shares.ranges([16, 16].into_iter(), 32.0, 8), vec![16..16, 16..48]);
-        assert_eq!(shares.ranges([16, 48].into_iter(), 64.0, 8), vec![16..32, 48..96]);
+        assert_eq!(shares.ranges([16, 16].into_iter(), |_| 32.0, 8), vec![16..16, 16..48]);
+        assert_eq!(shares.ranges([16, 48].into_iter(), |_| 64.0, 8), vec![16..32, 48..96]);
     }
 
     #[test]

@@ -187,6 +187,10 @@ pub struct Settings {
     pub fresnel: Option<FresnelModel>,
     /// Wavelengths a path carries: 1, 4 or 8.
     pub lanes: u32,
+    /// Materials whose data the command line replaced, and by what.
+    pub ior: Vec<(String, String)>,
+    /// Materials that the command line replaced, and by what.
+    pub vary: Vec<(String, String)>,
 }
 
 /// How the film is to be developed.

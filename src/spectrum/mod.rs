@@ -46,7 +46,7 @@ pub use bins::{BinShares, Bins};
 pub use color::{Matrix3, Xyz, bradford, lab_from_xyz, xyz_from_lab, xyz_from_xy};
 pub use colorimeter::{Adaptation, Colorimeter};
 pub use curve::Spectrum;
-pub use delta_e::ciede2000;
+pub use delta_e::{ciede2000, ciede2000_metric};
 pub use emission::{Daylight, Line, planck};
 pub use error::{SpectrumError, nearest};
 pub use formula::{Formula, FormulaType};

@@ -77,6 +77,24 @@ impl RgbSpace {
     pub fn rgb_from_xyz(self) -> Matrix3 {
         self.xyz_from_rgb().inverse().unwrap_or(Matrix3::IDENTITY)
     }
+
+    /// A linear value by the space's own transfer curve; ACEScg has none.
+    pub fn encode(self, linear: f64) -> f64 {
+        match self {
+            Self::Srgb | Self::DisplayP3 => encode_srgb(linear),
+            Self::Rec2020 => encode_bt2020(linear),
+            Self::AcesCg => linear,
+        }
+    }
+
+    /// The inverse of [`Self::encode`].
+    pub fn decode(self, encoded: f64) -> f64 {
+        match self {
+            Self::Srgb | Self::DisplayP3 => decode_srgb(encoded),
+            Self::Rec2020 => decode_bt2020(encoded),
+            Self::AcesCg => encoded,
+        }
+    }
 }
 
 /// What a file may say of its RGB: chromaticities (x, y) of red, green and blue, and of (1, 1, 1).
@@ -127,6 +145,22 @@ pub fn encode_srgb(linear: f64) -> f64 {
 pub fn decode_srgb(encoded: f64) -> f64 {
     let size = encoded.abs();
     let linear = if size <= 0.04045 { size / 12.92 } else { libm::pow((size + 0.055) / 1.055, 2.4) };
+    linear.copysign(encoded)
+}
+
+/// α and β of the curve of ITU-R BT.2020 (2015), table 4, for 12-bit systems.
+const BT2020: (f64, f64) = (1.0993, 0.0181);
+
+/// The curve of BT.2020: linear to encoded, odd as [`encode_srgb`].
+fn encode_bt2020(linear: f64) -> f64 {
+    let ((alpha, beta), size) = (BT2020, linear.abs());
+    let encoded = if size < beta { 4.5 * size } else { alpha * libm::pow(size, 0.45) - (alpha - 1.0) };
+    encoded.copysign(linear)
+}
+
+fn decode_bt2020(encoded: f64) -> f64 {
+    let ((alpha, beta), size) = (BT2020, encoded.abs());
+    let linear = if size < 4.5 * beta { size / 4.5 } else { libm::pow((size + (alpha - 1.0)) / alpha, 1.0 / 0.45) };
     linear.copysign(encoded)
 }
 
@@ -190,6 +224,12 @@ mod tests {
             let linear = f64::from(i) / 40.0;
             assert!((decode_srgb(encode_srgb(linear)) - linear).abs() < 3e-7 + 1e-12);
         }
+        for space in RgbSpace::ALL {
+            assert!((-40..=60).map(|i| f64::from(i) / 40.0).all(|x| (space.decode(space.encode(x)) - x).abs() < 1e-4));
+            assert!((space.encode(1.0) - 1.0).abs() < 1e-12 && space.encode(0.0) == 0.0);
+        }
+        // BT.2020, table 4: 0.5 is 1.0993 · 0.5^0.45 − 0.0993.
+        assert!((RgbSpace::Rec2020.encode(0.5) - 0.705435).abs() < 1e-5);
         assert_eq!(hex_from_srgb([1.5, 0.0, -1.0]), "#ff0000");
         let gold = srgb_from_hex("#FFD700").unwrap();
         assert_eq!(hex_from_srgb(gold), "#ffd700");

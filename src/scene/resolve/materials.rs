@@ -17,6 +17,8 @@ use toml::Spanned;
 /// A material's description with the text it stands in, so that its errors point there.
 struct Described {
     name: String,
+    /// What the scene calls it, which is another name if the command line replaced it.
+    asked: String,
     text: Text,
     material: Arc<describe::Material>,
     span: Range<usize>,
@@ -60,11 +62,15 @@ impl Resolver<'_> {
     }
 
     fn described(&mut self, name: &Spanned<String>) -> Result<Described, SceneError> {
-        let wanted = name.get_ref();
+        let asked = name.get_ref();
+        // Replaced, a material of the scene is used all the same: it is no oversight.
+        self.used_materials.insert(asked.clone());
+        let wanted = &self.substitutes.material(asked).to_owned();
         if let Some((material, span)) = self.own_materials.get(wanted).cloned() {
             self.used_materials.insert(wanted.clone());
             return Ok(Described {
                 name: wanted.clone(),
+                asked: asked.clone(),
                 text: self.text.clone(),
                 material,
                 span,
@@ -75,12 +81,17 @@ impl Resolver<'_> {
         let text = Text::new(found.origin, found.text);
         let material = Arc::new(text.parse()?);
         self.sources.push(text.clone());
-        Ok(Described { name: wanted.clone(), text, material, span: 0..0, asked_at: name.span() })
+        let (name, asked, asked_at) = (wanted.clone(), asked.clone(), name.span());
+        Ok(Described { name, asked, text, material, span: 0..0, asked_at })
     }
 
     fn unknown_material(&self, name: &Spanned<String>, error: SpectrumError) -> SceneError {
-        let own = nearest(name.get_ref(), self.own_materials.keys().map(String::as_str));
-        let error = self.text.error(&name.span(), error);
+        let (asked, wanted) = (name.get_ref(), self.substitutes.material(name.get_ref()));
+        let own = nearest(wanted, self.own_materials.keys().map(String::as_str));
+        let error = match self.substitutes.is_replaced(asked) {
+            true => SceneError::new(format!("--vary {asked}={wanted}: {error}")),
+            false => self.text.error(&name.span(), error),
+        };
         match own {
             Some(own) => error.help(format!("this scene has a material `{own}`")),
             None => error,
@@ -98,7 +109,10 @@ impl Resolver<'_> {
                 let alpha = self.roughness(text, &dielectric.roughness, &dielectric.perceptual_roughness, pattern)?;
                 Ok(Surface::Dielectric(Interface { medium, alpha, model: self.model(dielectric.fresnel) }))
             }
-            (None, None, Some(diffuse)) => self.diffuse(described, diffuse.get_ref(), pattern),
+            (None, None, Some(diffuse)) => {
+                self.refuse_index(&described.asked, "diffuse")?;
+                self.diffuse(described, diffuse.get_ref(), pattern)
+            }
             (None, None, None) => Err(text
                 .error(span, format!("material `{}` is of no kind", described.name))
                 .help("give it one of [conductor], [dielectric], [diffuse]")),
@@ -174,6 +188,10 @@ impl Resolver<'_> {
 
     fn ior(&mut self, described: &Described, source: &Spanned<IndexSource>) -> Result<Arc<Ior>, SceneError> {
         let error = |message: &dyn Display| described.text.error(&source.span(), message);
+        if let Some(ior) = self.substitute_index(&described.asked, &described.name)? {
+            let fault = |fault| SceneError::new(format!("--ior {}={}: {fault}", described.asked, ior.about.name));
+            return index_fault(&ior).map_or(Ok(ior.clone()), |found| Err(fault(found)));
+        }
         let ior = match source.get_ref() {
             IndexSource::Name(name) => {
                 let found = self.library.ior(name, described.text.base()).map_err(|fault| error(&fault))?;

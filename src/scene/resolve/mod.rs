@@ -12,6 +12,7 @@ mod provenance;
 mod settings;
 mod shapes;
 mod solids;
+mod substitutes;
 mod surroundings;
 mod view;
 
@@ -30,6 +31,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
+use substitutes::Substitutes;
 use toml::Spanned;
 
 /// Reads a scene's text and resolves it.
@@ -47,6 +49,7 @@ pub fn resolve(text: Text, library: &Library, overrides: &Overrides) -> Result<S
         meters_per_unit: None,
         fresnel: overrides.fresnel.or(file.render.fresnel),
         own_materials: own_materials.collect(),
+        substitutes: Substitutes::new(overrides)?,
         used_materials: BTreeSet::new(),
         outside_name: None,
         observer_1931,
@@ -72,6 +75,7 @@ struct Resolver<'a> {
     meters_per_unit: Option<f64>,
     fresnel: Option<FresnelModel>,
     own_materials: BTreeMap<String, (Arc<describe::Material>, Range<usize>)>,
+    substitutes: Substitutes,
     used_materials: BTreeSet<String>,
     /// The material that is around everything.
     outside_name: Option<String>,
@@ -100,6 +104,7 @@ impl Resolver<'_> {
         self.media.push(Medium { name: "vacuum".into(), n: vacuum, absorption: None, dispersive: false });
         file.outside.as_ref().map(|name| self.outside(name)).transpose()?;
         let Objects { mut objects, shapes, mut emitters } = self.objects(&file.objects, &file.replace)?;
+        self.check_substitutes()?;
         let world = World::new(shapes).map_err(|error| self.text.whole(error))?;
         let environment = match &file.environment {
             Some(environment) => self.environment(environment.get_ref(), &world.bounds(), &mut emitters)?,

@@ -23,6 +23,10 @@ pub struct Overrides {
     pub fresnel: Option<FresnelModel>,
     /// Wavelengths a path carries: 1, 4 or 8.
     pub lanes: Option<u32>,
+    /// Materials by the scene's names, and the data sets of n and k that they take in place of their own.
+    pub ior: Vec<(String, String)>,
+    /// Materials by the scene's names, and the materials that replace them.
+    pub vary: Vec<(String, String)>,
 }
 
 /// A picture's size unless the scene or the command line says otherwise.
@@ -46,6 +50,8 @@ impl Resolver<'_> {
             filter: render.filter,
             fresnel: overrides.fresnel.or(render.fresnel),
             lanes: overrides.lanes.unwrap_or(crate::spectrum::LANES as u32),
+            ior: overrides.ior.clone(),
+            vary: overrides.vary.clone(),
         })
     }
 

@@ -3,25 +3,13 @@
 use crate::fresnel::{conductor, dielectric, exact};
 use crate::scene::SceneError;
 use crate::spectrum::{Lanes, nearest};
-use clap::{Args, Subcommand, ValueEnum};
+use clap::{Args, ValueEnum};
 use csv::{ReaderBuilder, StringRecord, Trim, WriterBuilder};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
-pub struct FresnelArgs {
-    #[command(subcommand)]
-    command: Command,
-}
-
-#[derive(Debug, Subcommand)]
-enum Command {
-    /// Reflectances and phases for every row of a table of n1, n2, k2 and cos_i
-    Eval(EvalArgs),
-}
-
-#[derive(Debug, Args)]
-struct EvalArgs {
+pub struct EvalArgs {
     /// CSV with a header that names n1, n2, k2 and cos_i; `#` begins a comment; `-` is standard input
     #[arg(long, value_name = "FILE")]
     input: PathBuf,
@@ -40,14 +28,8 @@ const INPUTS: [&str; 4] = ["n1", "n2", "k2", "cos_i"];
 const RESULTS: [&str; 9] =
     ["Rs", "Rp", "R", "one_minus_Rs", "one_minus_Rp", "one_minus_R", "delta_s", "delta_p", "tir"];
 
-pub fn run(args: &FresnelArgs) -> Result<(), SceneError> {
-    match &args.command {
-        Command::Eval(args) => eval(args),
-    }
-}
-
 /// Answers only once all rows are read: half a table looks like a whole one.
-fn eval(args: &EvalArgs) -> Result<(), SceneError> {
+pub fn run(args: &EvalArgs) -> Result<(), SceneError> {
     let text = contents(&args.input)?;
     let table = table(&text, args)?;
     let mut out = io::stdout().lock();
