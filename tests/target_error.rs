@@ -2,6 +2,7 @@
 
 mod common;
 
+use common::command::{folder, refused, run};
 use common::{film, scene};
 use spectrel::cli::effort::{Reached, Target, Work};
 use spectrel::film::{Develop, Exposure, Film, Gamut, Layers, Replicates, Wanted, Window};
@@ -173,4 +174,59 @@ fn a_limit_ends_it_and_is_told() {
     let (_, reached) = stopped(3, "dE=0.001", 64);
     assert!(!reached.met && reached.mean_samples == 64.0);
     assert!(reached.to_string().contains("asked for 0.001"), "{reached}");
+}
+
+/// The channels of an EXR file by name.
+fn channels(path: &std::path::Path) -> Vec<(String, Vec<f32>)> {
+    let image = exr::prelude::read_all_flat_layers_from_file(path).expect("an EXR file");
+    let values = |samples: &exr::image::FlatSamples| samples.values_as_f32().collect();
+    let list = &image.layer_data[0].channel_data.list;
+    list.iter().map(|channel| (channel.name.to_string(), values(&channel.sample_data))).collect()
+}
+
+#[test]
+fn the_command_says_what_was_asked_and_what_was_reached() {
+    let folder = folder(&[("a.toml", SCENE)]);
+    let said = |args: &[&str]| {
+        let output = run(folder.path(), &[&["a.toml", "-o", "a.exr", "-o", "a.png"], args].concat());
+        String::from_utf8(output.stderr).expect("text")
+    };
+    let met = said(&["--target-error", "dE=3,rmse=0.2"]);
+    assert!(met.contains("mean ΔE2000 at most") && met.contains("asked for 3; RMSE of linear RGB at most"), "{met}");
+    // The noise map is in the file, and what it says is what was promised, or nearly.
+    let channels = channels(&folder.path().join("a.exr"));
+    let of = |name: &str| &channels.iter().find(|(known, _)| known == name).expect("a channel").1;
+    let mean = of("noise.dE").iter().sum::<f32>() / 1024.0;
+    assert!(mean > 0.3 && mean <= 3.0, "{mean}");
+    let counts = of("samples.N");
+    assert!(counts.iter().all(|count| *count >= 16.0 && count % 8.0 == 0.0), "{counts:?}");
+    let limited = said(&["--target-error", "dE=0.001", "--spp", "64", "-q"]);
+    assert!(
+        limited.starts_with("warning: stopped before the error was small enough: mean ΔE2000 at most"),
+        "{limited}"
+    );
+    assert!(limited.contains("asked for 0.001"), "{limited}");
+    let timed = said(&["--time", "300ms"]);
+    assert!(timed.contains("samples each"), "{timed}");
+    let both = said(&["--time", "200ms", "--target-error", "dE=0.001", "-q"]);
+    assert!(both.contains("warning: stopped before"), "{both}");
+}
+
+#[test]
+fn targets_that_make_no_sense_are_refused() {
+    let folder = folder(&[("a.toml", SCENE)]);
+    for (args, says) in [
+        (&["--target-error", "dE=0"] as &[&str], "above 0"),
+        (&["--target-error", "dE=nan"], "above 0"),
+        (&["--target-error", "delta=1"], "dE=BOUND, dE95=BOUND or rmse=BOUND"),
+        (&["--target-error", "0.5"], "dE=BOUND, dE95=BOUND or rmse=BOUND"),
+        (&["--target-error", "dE=1,dE=2"], "bounds the mean ΔE2000 twice: 1 and 2"),
+        (&["--time", "0s"], "a time above 0"),
+        (&["--time", "5 parsecs"], "such as 60s, 5m or 1h"),
+        (&["--target-error", "dE=1", "--preview"], "--preview"),
+    ] {
+        let message = refused(folder.path(), &[&["a.toml", "-o", "a.png"], args].concat());
+        assert!(message.contains(says), "{args:?}: {message}");
+        assert!(!folder.path().join("a.png").exists());
+    }
 }
