@@ -44,7 +44,7 @@ fn aovs_are_layers_of_the_exr() {
     let folder = folder(&[("a.toml", SCENE)]);
     run(folder.path(), &["a.toml", "-q", "--aovs", "all", "-o", "a.exr", "-o", "a.png"]);
     let (channels, texts) = read_exr(&folder.path().join("a.exr"));
-    let expected = "B G R albedo.B albedo.G albedo.R depth.Z normal.X normal.Y normal.Z object.id variance.B variance.G variance.R";
+    let expected = "B G R albedo.B albedo.G albedo.R depth.Z noise.dE normal.X normal.Y normal.Z object.id samples.N variance.B variance.G variance.R";
     assert_eq!(names(&channels), expected.split(' ').collect::<Vec<_>>());
     let at = |name: &str, place: usize| values(&channels[name])[place];
     // The middle of the ball, and a corner that sees nothing.
@@ -112,7 +112,7 @@ fn what_has_no_file_to_go_into_is_refused_before_rendering() {
     assert!(refused(&["--denoise-inputs", "-o", "a.png"]).contains("--denoise-inputs"));
     assert!(refused(&["--spectral", "400:10:700", "-o", "a.exr"]).contains("add -o picture.spectral.exr"));
     assert!(refused(&["--spectral", "300:10:700", "-o", "a.spectral.exr"]).contains("beyond 360–830 nm"));
-    assert!(refused(&["--aovs", "colour"]).contains("albedo, normal, depth, variance, object, all"));
+    assert!(refused(&["--aovs", "colour"]).contains("albedo, normal, depth, variance, noise, object, all"));
     assert!(refused(&["--aovs", "variance", "--spp", "7"]).contains("--spp 8"));
     assert_eq!(fs::read_dir(folder.path()).expect("the folder").count(), 1, "nothing but the scene");
 }

@@ -1,5 +1,6 @@
 //! One render of one scene: exposed, developed, written.
 
+use super::effort::{Effort, Reached, Work};
 use super::interrupt::Interrupt;
 use super::layers::{Picture, Plan};
 use super::preview::Preview;
@@ -22,6 +23,7 @@ pub struct Job<'a> {
     pub args: &'a RenderArgs,
     pub plan: &'a Plan,
     pub scene: &'a Scene,
+    pub effort: &'a Effort,
 }
 
 impl Job<'_> {
@@ -53,18 +55,29 @@ impl Job<'_> {
         let window = window(scene.settings.crop);
         let mut layers = self.plan.layers(scene, window)?;
         let pool = rayon::ThreadPoolBuilder::new().num_threads(self.args.threads()).build().map_err(SceneError::new)?;
-        let samples = u64::from(scene.settings.samples);
-        let progress = Shown::new(window.pixel_count() * samples, quiet);
+        let progress = match self.effort.samples() {
+            Some(samples) => Shown::new(window.pixel_count() * samples, quiet),
+            None => Shown::open(quiet),
+        };
         let started = Instant::now();
         let needs = Needs::of(scene);
         let kernel = Kernel::new(scene, &needs);
         let recorder = self.plan.recorder(&kernel, scene, &needs);
+        let work = Work { recorder: &recorder, progress: &progress, cancel: interrupt.flag(), quiet };
         let mut render = |layers: &mut Layers, samples| {
             pool.install(|| render_layers(&recorder, layers, samples, &progress, interrupt.flag()));
         };
-        match preview {
-            None => render(&mut layers, 0..samples),
-            Some(preview) => self.expose_and_show(&mut layers, preview, &mut render, interrupt)?,
+        match (self.effort, preview) {
+            (Effort::Samples(samples), None) => render(&mut layers, 0..*samples),
+            (Effort::Samples(_), Some(preview)) => {
+                self.expose_and_show(&mut layers, preview, &mut render, interrupt)?
+            }
+            (Effort::Time { time, most }, _) => pool.install(|| work.for_time(&mut layers, *time, *most)),
+            (Effort::Error { targets, time, most }, _) => {
+                let asked = (targets.as_slice(), *time, *most);
+                let reached = pool.install(|| work.for_error(&mut layers, asked, &development(scene)));
+                tell(&reached.map_err(SceneError::new)?, quiet);
+            }
         }
         progress.finish();
         if interrupt.pressed() {
@@ -138,12 +151,21 @@ impl Job<'_> {
         let extra = match format {
             image::Format::Png => Extra::default(),
             image::Format::Exr => {
-                let matrix = development(self.scene).matrix(developed.ev);
-                let picture = Picture::new(developed, matrix, options.exr_space)?;
+                let picture =
+                    Picture::new(developed, &development(self.scene), options.exr_space).map_err(SceneError::new)?;
                 self.plan.extra(path, self.scene, layers, &picture)
             }
         };
         image::encode_with(format, developed, &extra, &options, &metadata).map_err(SceneError::new)
+    }
+}
+
+/// Whether a bound was reached: told in any case if it was not.
+fn tell(reached: &Reached, quiet: bool) {
+    if !reached.met {
+        show::warning(format_args!("stopped before the error was small enough: {reached}"));
+    } else if !quiet {
+        show::note(reached);
     }
 }
 

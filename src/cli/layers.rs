@@ -1,10 +1,12 @@
 //! What `spectrel render` writes beside the picture: AOVs into EXR files, bands of wavelength into spectral ones.
 
 use super::memory;
-use crate::film::{Developed, FilmError, Layers, REPLICATES, Replicates, Wanted, Window};
+use crate::film::{Develop, Developed, FilmError, Layers, REPLICATES, Replicates, Wanted, Window};
 use crate::image::channels::FAR;
 use crate::image::{Channel, ExrSpace, Extra, Format, Metadata, spectral};
 use crate::render::{FirstHit, Guides, Kernel, Recorder, first_hits};
+use crate::report::View;
+use crate::report::noise::Noise;
 use crate::scene::{Needs, Scene, SceneError};
 use crate::spectrum::{Bins, Matrix3, RgbSpace};
 use clap::{Args, ValueEnum};
@@ -12,8 +14,8 @@ use std::path::{Path, PathBuf};
 
 #[derive(Clone, Debug, Args)]
 pub struct LayerArgs {
-    /// Layers of the EXR files beside the picture, separated by commas (variance renders 8 independent replicates of
-    /// each pixel, with another and somewhat stronger noise)
+    /// Layers of the EXR files beside the picture, separated by commas (variance and noise render 8 independent
+    /// replicates of each pixel, with another and somewhat stronger noise)
     #[arg(long, value_name = "LAYER,…", value_enum, value_delimiter = ',')]
     aovs: Vec<Aov>,
     /// Albedo and normal as denoisers want them, into the EXR files: as --aovs albedo,normal but seen in mirrors too
@@ -30,6 +32,8 @@ enum Aov {
     Normal,
     Depth,
     Variance,
+    /// ΔE2000 that the noise makes, and samples a pixel.
+    Noise,
     Object,
     All,
 }
@@ -40,6 +44,8 @@ pub struct Plan {
     aovs: Vec<Aov>,
     mirrors: bool,
     bins: Option<Bins>,
+    /// Whether the render stops by its error.
+    judged: bool,
 }
 
 /// Whether a file's name asks for bands of wavelength.
@@ -49,7 +55,7 @@ fn is_spectral(path: &Path) -> bool {
 
 impl LayerArgs {
     /// Fails if no file could hold what is asked for.
-    pub fn plan(&self, outputs: &[PathBuf]) -> Result<Plan, SceneError> {
+    pub fn plan(&self, outputs: &[PathBuf], judged: bool) -> Result<Plan, SceneError> {
         let exr = |path: &&PathBuf| matches!(Format::of(path), Ok(Format::Exr));
         let (bands, plain): (Vec<_>, Vec<_>) = outputs.iter().filter(exr).partition(|path| is_spectral(path));
         let option = if self.denoise_inputs { "--denoise-inputs" } else { "--aovs" };
@@ -63,19 +69,26 @@ impl LayerArgs {
         }
         let bins = (!bands.is_empty()).then(|| self.spectral.unwrap_or_default());
         let aovs = if self.aovs.contains(&Aov::All) { Aov::value_variants().to_vec() } else { self.aovs.clone() };
-        Ok(Plan { aovs, mirrors: self.denoise_inputs, bins })
+        Ok(Plan { aovs, mirrors: self.denoise_inputs, bins, judged })
     }
 }
 
 impl Plan {
     fn has(&self, aov: Aov) -> bool {
-        self.aovs.contains(&aov) || (self.mirrors && matches!(aov, Aov::Albedo | Aov::Normal))
+        self.aovs.contains(&aov)
+            || (self.judged && aov == Aov::Noise)
+            || (self.mirrors && matches!(aov, Aov::Albedo | Aov::Normal))
+    }
+
+    /// Whether replicates of each pixel are compared.
+    fn compares(&self) -> bool {
+        self.has(Aov::Variance) || self.has(Aov::Noise)
     }
 
     fn wanted(&self) -> Wanted {
         Wanted {
             features: self.has(Aov::Albedo) || self.has(Aov::Normal),
-            replicates: self.has(Aov::Variance),
+            replicates: self.compares(),
             bands: self.bins.map_or(0, |bins| bins.count()),
         }
     }
@@ -83,9 +96,9 @@ impl Plan {
     /// Empty layers, if the scene's settings and the memory allow them.
     pub fn layers(&self, scene: &Scene, window: Window) -> Result<Layers, SceneError> {
         let least = REPLICATES as u32;
-        if self.has(Aov::Variance) && scene.settings.samples < least {
+        if self.compares() && !self.judged && scene.settings.samples < least {
             let message =
-                format!("the variance compares {least} replicates of each pixel: it needs --spp {least} or more");
+                format!("variance and noise compare {least} replicates of each pixel: they need --spp {least} or more");
             return Err(SceneError::new(message));
         }
         let channels = 3 * self.aovs.len() + self.wanted().bands;
@@ -123,6 +136,14 @@ impl Plan {
             let of = |pixel: &Replicates| pixel.variance_of_mean(&picture.from_xyz).map(|v| v as f32);
             let variance: Vec<_> = layers.replicates().iter().map(of).collect();
             channels.extend(Channel::triple("variance", ["R", "G", "B"], true, &variance));
+        }
+        if self.has(Aov::Noise) {
+            let counts = layers.film().pixels().iter().map(|pixel| pixel.count() as f32);
+            channels.push(Channel::new(
+                "noise.dE",
+                Noise::of(layers.replicates(), layers.film().window().width as usize, &picture.viewing).de,
+            ));
+            channels.push(Channel::new("samples.N", counts.collect()));
         }
         channels.extend(self.of_first_hits(scene, layers.film().window()));
         channels
@@ -162,14 +183,16 @@ pub struct Picture {
     from_xyz: Matrix3,
     /// From linear RGB.
     from_rgb: Matrix3,
+    viewing: View,
 }
 
 impl Picture {
-    /// `matrix` takes the film's XYZ to the developed RGB.
-    pub fn new(developed: &Developed, matrix: Result<Matrix3, FilmError>, space: ExrSpace) -> Result<Self, SceneError> {
+    /// Of a film that was developed so.
+    pub fn new(developed: &Developed, develop: &Develop, space: ExrSpace) -> Result<Self, FilmError> {
+        let viewing = View::new(developed.ev, developed.white);
         Ok(match space {
-            ExrSpace::Rgb => Self { from_xyz: matrix.map_err(SceneError::new)?, from_rgb: Matrix3::IDENTITY },
-            ExrSpace::Xyz => Self { from_xyz: Matrix3::IDENTITY, from_rgb: developed.space.xyz_from_rgb() },
+            ExrSpace::Rgb => Self { from_xyz: develop.matrix(developed.ev)?, from_rgb: Matrix3::IDENTITY, viewing },
+            ExrSpace::Xyz => Self { from_xyz: Matrix3::IDENTITY, from_rgb: developed.space.xyz_from_rgb(), viewing },
         })
     }
 

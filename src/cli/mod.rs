@@ -1,6 +1,7 @@
 //! The command line: one file a command.
 
 mod compare;
+pub mod effort;
 mod f0;
 mod fresnel;
 mod inspect;

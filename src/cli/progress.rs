@@ -36,6 +36,18 @@ impl Shown {
         Self::Bar(bar)
     }
 
+    /// Of a render that nobody knows the length of.
+    pub fn open(quiet: bool) -> Self {
+        if quiet || !std::io::stderr().is_terminal() {
+            return Self::Nothing;
+        }
+        let spinner = ProgressBar::new_spinner();
+        if let Ok(style) = ProgressStyle::with_template("{spinner} {elapsed} gone  {human_pos} samples") {
+            spinner.set_style(style);
+        }
+        Self::Bar(spinner)
+    }
+
     pub fn finish(&self) {
         if let Self::Bar(bar) = self {
             bar.finish_and_clear();

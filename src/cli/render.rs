@@ -1,5 +1,6 @@
 //! `spectrel render`: a scene becomes pictures.
 
+use super::effort::EffortArgs;
 use super::interrupt::Interrupt;
 use super::job::Job;
 use super::layers::LayerArgs;
@@ -43,6 +44,8 @@ pub struct RenderArgs {
     /// Write 16-bit floats into EXR files
     #[arg(long)]
     exr_half: bool,
+    #[command(flatten)]
+    effort: EffortArgs,
     #[command(flatten)]
     layers: LayerArgs,
     /// Render again when the scene or a file that it names changes, until Ctrl-C
@@ -123,14 +126,20 @@ impl RenderArgs {
 pub fn run(args: &RenderArgs) -> Result<(), SceneError> {
     let outputs = args.outputs();
     outputs.iter().try_for_each(|path| image::check_writable(path)).map_err(SceneError::new)?;
-    let plan = args.layers.plan(&outputs)?;
+    if args.effort.is_open() && args.preview.is_some() {
+        return Err(SceneError::new(
+            "--preview shows a render of a known length: it does not go with --target-error or --time",
+        ));
+    }
+    let plan = args.layers.plan(&outputs, args.effort.judges())?;
     let mut preview = args.preview.as_deref().map(|host| Preview::connect(host, &args.name())).transpose()?;
     let interrupt = Interrupt::listen();
     let mut render = |read: &dyn Fn(&[Text])| {
         let scene = resolve(args.scene.read()?, &args.scene.library.open()?, &args.overrides())?;
         read(&scene.sources);
         scene.warnings.iter().for_each(show::warning);
-        Job { args, plan: &plan, scene: &scene }.run(&outputs, &interrupt, preview.as_mut())
+        let effort = args.effort.effort(args.settings.samples(), scene.settings.samples)?;
+        Job { args, plan: &plan, scene: &scene, effort: &effort }.run(&outputs, &interrupt, preview.as_mut())
     };
     if !args.watch {
         return render(&|_| {});

@@ -27,6 +27,11 @@ impl SettingsArgs {
         Overrides { width: self.width, height: self.height, samples: self.spp, seed: self.seed, ..Overrides::default() }
     }
 
+    /// Samples a pixel, if the command line says how many.
+    pub fn samples(&self) -> Option<u32> {
+        self.spp
+    }
+
     /// 0 is all cores.
     pub fn threads(&self) -> usize {
         usize::from(self.threads.unwrap_or(0))

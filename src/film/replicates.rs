@@ -11,7 +11,7 @@
 //! The price: eight nets are together less even than one net of all samples.
 
 use super::fixed::{sum_to_f64, sum_units};
-use crate::spectrum::Matrix3;
+use crate::spectrum::{Matrix3, Xyz};
 
 /// Independent replicates of a pixel; sample i belongs to replicate i mod this.
 pub const REPLICATES: usize = 8;
@@ -31,6 +31,12 @@ impl Replicates {
             *sum = sum.wrapping_add(sum_units(x));
         }
         self.counts[replicate] = self.counts[replicate].saturating_add(1);
+    }
+
+    /// Mean XYZ (cd/m²) of each replicate that has samples.
+    pub fn means(&self) -> impl Iterator<Item = Xyz> {
+        let taken = self.sums.iter().zip(&self.counts).filter(|(_, count)| **count > 0);
+        taken.map(|(sum, count)| sum.map(|units| sum_to_f64(units) / f64::from(*count)))
     }
 
     /// Variance of the mean of all samples in the channels that `matrix` makes of XYZ; infinite below two replicates.

@@ -28,12 +28,20 @@ impl<'a> Recorder<'a> {
         Self { kernel, guides, shares }
     }
 
-    fn row<const N: usize>(&self, row: &mut LayersRow, [x0, y]: [u32; 2], samples: &Range<u64>) {
+    fn row<const N: usize>(&self, row: &mut LayersRow, [x0, y]: [u32; 2], samples: &dyn Fn(usize) -> Range<u64>) {
         for (at, x) in (0..row.pixels.len()).zip(x0..) {
             let numbers = Numbers::new(self.kernel.samples([x, y]), !row.replicates.is_empty());
-            for index in samples.clone() {
+            for index in samples(at) {
                 self.sample::<N>(row, at, [x, y], numbers.sample(index), index);
             }
+        }
+    }
+
+    fn row_of_lanes(&self) -> RenderRow<'a> {
+        match self.kernel.scene.settings.lanes {
+            1 => Self::row::<1>,
+            4 => Self::row::<4>,
+            _ => Self::row::<8>,
         }
     }
 
@@ -62,6 +70,9 @@ impl<'a> Recorder<'a> {
         }
     }
 }
+
+/// Renders a row of pixels, given where it begins and which samples each of them gets.
+type RenderRow<'a> = fn(&Recorder<'a>, &mut LayersRow, [u32; 2], &dyn Fn(usize) -> Range<u64>);
 
 /// The random numbers of a pixel's samples: of one net, or of independent ones in turn.
 enum Numbers {
@@ -95,19 +106,34 @@ pub fn render_layers(
     progress: &dyn Progress,
     cancel: &AtomicBool,
 ) {
-    let render_row = match recorder.kernel.scene.settings.lanes {
-        1 => Recorder::row::<1>,
-        4 => Recorder::row::<4>,
-        _ => Recorder::row::<8>,
-    };
+    let render_row = recorder.row_of_lanes();
     let window = layers.film().window();
     let mut rows = layers.rows_mut();
     for pass in passes(samples) {
         rows.par_iter_mut().zip(window.y0..window.y0 + window.height).for_each(|(row, y)| {
             if !cancel.load(Ordering::Relaxed) {
-                render_row(recorder, row, [window.x0, y], &pass);
+                render_row(recorder, row, [window.x0, y], &|_| pass.clone());
                 progress.advance(u64::from(window.width) * (pass.end - pass.start));
             }
         });
     }
+}
+
+/// The same with a range of samples of its own for each pixel, row by row from the top. What lies beyond the plan is left.
+pub fn render_planned(
+    recorder: &Recorder,
+    layers: &mut Layers,
+    plan: &[Range<u64>],
+    progress: &dyn Progress,
+    cancel: &AtomicBool,
+) {
+    let render_row = recorder.row_of_lanes();
+    let window = layers.film().window();
+    let lines = plan.chunks(window.width as usize).zip(window.y0..window.y0 + window.height);
+    layers.rows_mut().par_iter_mut().zip(lines.collect::<Vec<_>>()).for_each(|(row, (plan, y))| {
+        if !cancel.load(Ordering::Relaxed) {
+            render_row(recorder, row, [window.x0, y], &|at| plan.get(at).cloned().unwrap_or(0..0));
+            progress.advance(plan.iter().map(|samples| samples.end.saturating_sub(samples.start)).sum());
+        }
+    });
 }

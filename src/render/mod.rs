@@ -16,7 +16,7 @@ mod stone;
 mod visible;
 
 pub use features::{Guides, Seen};
-pub use layers::{Recorder, render_layers};
+pub use layers::{Recorder, render_layers, render_planned};
 pub use visible::{FirstHit, first_hits};
 
 use crate::film::{Film, Pixel};

@@ -3,6 +3,7 @@
 //! - `f0`: colours of interfaces at normal incidence, at 82° and averaged, for tables and for checking those of others.
 //! - `fresnel`: reflectance curves, and the errors of approximations.
 //! - `view`: radiances as a display shows them; `difference`: two pictures compared, replicate by replicate.
+//! - `noise`: how far a picture is from the one without noise; `plan`: which pixel gets how many samples.
 //! - `jackknife`: what independent replicates say of a number's error.
 //! - `comparison`: variants of a scene beside each other, as one HTML page and as JSON.
 //! - `plot`, `colormap`: figures in SVG, numbers as colours.
@@ -20,6 +21,8 @@ pub mod fresnel;
 mod grid;
 pub mod jackknife;
 pub mod markup;
+pub mod noise;
+pub mod plan;
 pub mod plot;
 pub mod table;
 pub mod timing;

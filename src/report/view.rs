@@ -30,6 +30,11 @@ impl View {
         self.display.apply(xyz.map(f64::from))
     }
 
+    /// The same of more digits.
+    pub fn display_f64(&self, xyz: Xyz) -> Xyz {
+        self.display.apply(xyz)
+    }
+
     /// L*a*b* of XYZ relative to the display's white.
     pub fn lab(&self, display: Xyz) -> [f64; 3] {
         lab_from_xyz(display, self.white)
@@ -38,6 +43,11 @@ impl View {
     /// Linear sRGB of XYZ relative to the display's white.
     pub fn rgb(&self, display: Xyz) -> [f64; 3] {
         self.rgb.apply(display)
+    }
+
+    /// The matrix of [`Self::rgb`].
+    pub fn rgb_from_display(&self) -> Matrix3 {
+        self.rgb
     }
 
     /// The matrix from small differences of XYZ, relative to the display's white, to those of L*a*b*, at a colour.
