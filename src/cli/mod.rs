@@ -1,8 +1,10 @@
 //! The command line: one file a command.
 
+mod bench;
 mod compare;
 pub mod effort;
 mod f0;
+mod folder;
 mod fresnel;
 mod inspect;
 mod interrupt;
@@ -59,6 +61,8 @@ enum Command {
     List(list::ListArgs),
     /// Render variants of a scene with the same random numbers, and report how far they are apart
     Compare(compare::CompareArgs),
+    /// Report the speed of a scene's render against its error, by model, lanes, sampler, dispersion and samples
+    Bench(bench::BenchArgs),
     /// Colours of materials at normal incidence and beyond, with their sources, as tables for people and engines
     F0(f0::F0Args),
     /// The Fresnel equations by themselves, without a scene
@@ -175,6 +179,7 @@ pub fn main() -> ExitCode {
         Some(Command::Inspect(args)) => inspect::run(&args),
         Some(Command::List(args)) => list::run(&args),
         Some(Command::Compare(args)) => compare::run(&args),
+        Some(Command::Bench(args)) => bench::run(&args),
         Some(Command::F0(args)) => f0::run(&args),
         Some(Command::Fresnel(args)) => fresnel::run(&args),
     };

@@ -68,7 +68,7 @@ fn crop(text: &str) -> Result<[u32; 4], String> {
     numbers.map_err(|_| expected())?.try_into().map_err(|_| expected())
 }
 
-fn lanes(text: &str) -> Result<u32, String> {
+pub fn lanes(text: &str) -> Result<u32, String> {
     match text.parse() {
         Ok(lanes @ (1 | 4 | 8)) => Ok(lanes),
         _ => Err("a path carries 1, 4 or 8 wavelengths".into()),

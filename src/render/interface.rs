@@ -1,10 +1,10 @@
 //! A path at a dielectric boundary: reflected or refracted, and parted where a smooth one disperses.
 
-use super::Kernel;
 use super::media::MediaStack;
 use super::path::{Outcome, Path};
 use super::rough::Rough;
 use super::stone::Entry;
+use super::{Kernel, rays};
 use crate::bsdf::dielectric::{reflect, refract, refract_lanes};
 use crate::bsdf::{Directions, choose};
 use crate::geometry::{Departure, Hit, Ray, Side};
@@ -64,6 +64,7 @@ impl Kernel<'_> {
                 break;
             }
             also.push(Departure::Surface { shape: hit.shape, facet: hit.facet, side: hit.side.opposite() });
+            rays::count(1);
             hit = self.scene.world.closest_beyond(&path.ray, also, f32::INFINITY)?;
         }
         Some(hit)
@@ -163,7 +164,10 @@ impl Kernel<'_> {
         sampler: &mut Sampler,
         radiance: &mut Lanes<N>,
     ) -> Outcome {
-        let Some(exits) = self.trace_stone(entry, path, sampler) else { return Outcome::Ended };
+        let entered = path.depth;
+        let exits = self.trace_stone(entry, path, sampler);
+        rays::count(N as u64 * u64::from(path.depth - entered));
+        let Some(exits) = exits else { return Outcome::Ended };
         let rank = self.scene.object(entry.hit.shape).rank;
         path.media = path.media.across(Filling { rank, medium: entry.interface.medium }, false);
         let departs = Departure::Surface { shape: entry.hit.shape, facet: 0, side: Side::Outside };

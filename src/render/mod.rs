@@ -10,6 +10,7 @@ mod media;
 mod models;
 mod path;
 mod pattern;
+pub mod rays;
 mod rough;
 mod scatter;
 mod stone;

@@ -5,9 +5,9 @@
 //! every ray. Parted lanes go on as N paths of one wavelength that draw the same numbers: each has its own rays to the end,
 //! which measures better than going on with one of them, and is simpler.
 
-use super::Kernel;
 use super::media::MediaStack;
 use super::scatter::power_heuristic;
+use super::{Kernel, rays};
 use crate::bsdf::Bsdf;
 use crate::geometry::{Hit, Ray};
 use crate::sampler::Sampler;
@@ -81,8 +81,9 @@ pub enum Outcome {
 impl Kernel<'_> {
     /// Spectral radiance (W m⁻² sr⁻¹ nm⁻¹) that arrives along a path's ray, a lane each.
     pub fn radiance<const N: usize>(&self, mut path: Path<N>, sampler: &mut Sampler) -> Lanes<N> {
-        let mut radiance = Lanes::ZERO;
+        let (mut radiance, mut traced) = (Lanes::ZERO, 0);
         loop {
+            traced += 1;
             let mut also = Vec::new();
             let Some(hit) = self.next(&path, &mut also) else {
                 radiance += self.environment(&path);
@@ -115,6 +116,7 @@ impl Kernel<'_> {
                 break;
             }
         }
+        rays::count(traced);
         radiance
     }
 

@@ -1,7 +1,7 @@
 //! A path at an opaque surface: light sampled directly, then a new direction.
 
-use super::Kernel;
 use super::path::{Outcome, Path};
+use super::{Kernel, rays};
 use crate::bsdf::{Bsdf, Frame};
 use crate::geometry::{Hit, Ray, Side};
 use crate::light::LightSample;
@@ -108,6 +108,7 @@ impl Kernel<'_> {
         // What comes from infinity is outside of all solids, as it is for a ray that escapes.
         let medium = if light.distance == f32::INFINITY { MediumId::OUTSIDE } else { medium };
         let shadow = Ray::leaving(hit, side, light.direction);
+        rays::count(1);
         if self.scene.world.occluded(&shadow, light.distance, light.target) {
             return Lanes::ZERO;
         }

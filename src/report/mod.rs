@@ -6,6 +6,7 @@
 //! - `noise`: how far a picture is from the one without noise; `plan`: which pixel gets how many samples.
 //! - `jackknife`: what independent replicates say of a number's error.
 //! - `comparison`: variants of a scene beside each other, as one HTML page and as JSON.
+//! - `bench`: speed against error, as text, figure, HTML page and JSON.
 //! - `plot`, `colormap`: figures in SVG, numbers as colours.
 //! - `grid`: a table as text, Markdown or CSV; `markup`: texts and values as HTML, Markdown and JSON take them.
 //! - `table`: tables of others, read.
@@ -13,6 +14,7 @@
 //!
 //! Numbers in, text and pixels out: this room knows no scene.
 
+pub mod bench;
 pub mod colormap;
 pub mod comparison;
 pub mod difference;

@@ -1,22 +1,22 @@
 //! `spectrel compare`: variants of a scene with the same random numbers, and a report of how far they are apart.
 
-mod folder;
 mod interfaces;
 mod outcome;
 mod replicates;
 mod variants;
 
+use super::folder::{Folder, Kind};
 use super::interrupt::Interrupt;
 use super::progress::Shown;
 use super::settings::SettingsArgs;
 use super::{LibraryArgs, job, memory, pair, scene_name, scene_text, show};
 use crate::film::Film;
 use crate::fresnel::FresnelModel;
+use crate::report::comparison::JSON_FILE;
 use crate::report::difference::FEWEST;
 use crate::report::jackknife::MOST;
 use crate::scene::{Scene, SceneError, Text};
 use clap::Args;
-use folder::Folder;
 use outcome::Outcome;
 use replicates::{Plan, render_all};
 use std::path::PathBuf;
@@ -25,6 +25,8 @@ use variants::{DEFAULT_MODELS, Variant, variants};
 
 /// The scene that is compared when none is named.
 const DEFAULT_SCENE: (&str, &str) = ("built-in:scenes/compare.toml", include_str!("../../../scenes/compare.toml"));
+
+const KIND: Kind = Kind { file: JSON_FILE, command: "compare" };
 
 #[derive(Debug, Args)]
 pub struct CompareArgs {
@@ -93,14 +95,14 @@ impl CompareArgs {
 }
 
 /// A word as a shell takes it.
-fn quoted(word: &str) -> String {
+pub fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_alphanumeric() || "-_=,./+:".contains(c);
     if word.chars().all(plain) { word.to_owned() } else { format!("'{}'", word.replace('\'', r"'\''")) }
 }
 
 pub fn run(args: &CompareArgs) -> Result<(), SceneError> {
     let variants = variants(args)?;
-    let folder = Folder::claim(&args.folder(), args.force)?;
+    let folder = Folder::claim(&args.folder(), KIND, args.force)?;
     let text = scene_text(args.scene.as_deref(), DEFAULT_SCENE)?;
     let mut scenes = resolve_all(&variants, &text, args)?;
     let settings = &scenes[0].settings;

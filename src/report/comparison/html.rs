@@ -50,7 +50,7 @@ pub fn page(comparison: &Comparison, pictures: &[Pictures]) -> Result<String, su
 }
 
 /// A template with every `{{name}}` replaced, once: what is put in is not looked at again.
-fn filled(template: &str, parts: &[(&str, String)]) -> Result<String, super::PageError> {
+pub fn filled(template: &str, parts: &[(&str, String)]) -> Result<String, super::PageError> {
     let mut pieces = template.split("{{");
     let mut page = pieces.next().unwrap_or_default().to_owned();
     for piece in pieces {

@@ -3,7 +3,10 @@
 mod html;
 mod words;
 
+pub(in crate::report) use html::filled;
 pub use html::{Pictures, page};
+pub(in crate::report) use words::seconds;
+pub use words::short;
 
 use super::{Difference, Noise};
 use crate::spectrum::About;

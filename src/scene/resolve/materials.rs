@@ -30,6 +30,9 @@ struct Described {
 const N_RANGE: RangeInclusive<f64> = 1e-6..=1e6;
 const K_RANGE: RangeInclusive<f64> = 0.0..=1e6;
 
+/// The wavelength of the printed index n_d of glasses and gems: the yellow helium line d (ISO 7944), nm.
+const HELIUM_D_NM: f64 = 587.5618;
+
 impl Resolver<'_> {
     /// The surface of a material by its name in this scene or in the library.
     pub fn material(&mut self, name: &Spanned<String>) -> Result<u32, SceneError> {
@@ -230,8 +233,9 @@ impl Resolver<'_> {
                 Some(self.spectra.add(per_unit))
             }
         };
-        let dispersive = !is_constant(&ior.n);
-        Ok(Medium { name: described.name.clone(), n: self.spectra.add(ior.n.clone()), absorption, dispersive })
+        let n = if self.without_dispersion { Spectrum::Constant(ior.n.at(HELIUM_D_NM)) } else { ior.n.clone() };
+        let dispersive = !is_constant(&n);
+        Ok(Medium { name: described.name.clone(), n: self.spectra.add(n), absorption, dispersive })
     }
 
     fn needs_scale(&self, described: &Described) -> SceneError {

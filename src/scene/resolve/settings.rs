@@ -3,7 +3,7 @@
 use super::Resolver;
 use crate::camera::Filter;
 use crate::fresnel::FresnelModel;
-use crate::scene::describe::{self, FilterName};
+use crate::scene::describe::{self, FilterName, SamplerName};
 use crate::scene::{SceneError, Settings};
 use toml::Spanned;
 
@@ -23,6 +23,9 @@ pub struct Overrides {
     pub fresnel: Option<FresnelModel>,
     /// Wavelengths a path carries: 1, 4 or 8.
     pub lanes: Option<u32>,
+    pub sampler: Option<SamplerName>,
+    /// Every dielectric has its n of the helium d line at all wavelengths.
+    pub without_dispersion: bool,
     /// Materials by the scene's names, and the data sets of n and k that they take in place of their own.
     pub ior: Vec<(String, String)>,
     /// Materials by the scene's names, and the materials that replace them.
@@ -46,7 +49,7 @@ impl Resolver<'_> {
             },
             seed: overrides.seed.or(render.seed).unwrap_or(0),
             max_depth: self.count(&render.max_depth, "max_depth")?,
-            sampler: render.sampler,
+            sampler: overrides.sampler.unwrap_or(render.sampler),
             filter: render.filter,
             fresnel: overrides.fresnel.or(render.fresnel),
             lanes: overrides.lanes.unwrap_or(crate::spectrum::LANES as u32),

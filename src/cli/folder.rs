@@ -1,12 +1,29 @@
 //! A folder that appears whole or not at all: filled beside its place, then renamed to it.
 
-use crate::report::comparison::{HTML_FILE, JSON_FILE};
 use crate::scene::SceneError;
 use std::ffi::OsString;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
+
+/// What tells a report from other folders.
+#[derive(Clone, Copy, Debug)]
+pub struct Kind {
+    /// A file that every one of them has.
+    pub file: &'static str,
+    /// Of spectrel, by which it is made.
+    pub command: &'static str,
+}
+
+impl Kind {
+    /// Whether such a report holds files of this name: whatever else lies in a folder is never thrown away.
+    fn makes(&self, file: &Path) -> bool {
+        let ending = file.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+        let own = file.file_stem() == Path::new(self.file).file_stem() && ["html", "json", "svg"].contains(&ending);
+        file.is_file() && (own || ["png", "exr"].contains(&ending))
+    }
+}
 
 /// Where a report is to stand.
 #[derive(Debug)]
@@ -16,7 +33,7 @@ pub struct Folder {
 
 impl Folder {
     /// Fails now if [`Folder::write`] would fail later. Only an earlier report is ever replaced, and only if `force` is said.
-    pub fn claim(path: &Path, force: bool) -> Result<Self, SceneError> {
+    pub fn claim(path: &Path, kind: Kind, force: bool) -> Result<Self, SceneError> {
         let (shown, folder) = (path.display(), Self { path: path.to_owned() });
         if path.file_name().is_none() {
             return Err(
@@ -31,8 +48,8 @@ impl Folder {
             return Err(SceneError::new(format!("{shown} is a file: the report is a folder")));
         }
         let names = if path.is_dir() { folder.names().map_err(|e| folder.failed(&e))? } else { Vec::new() };
-        let foreign = names.iter().find(|name| !is_of_a_report(&path.join(name)));
-        let report = names.iter().any(|name| name == JSON_FILE);
+        let foreign = names.iter().find(|name| !kind.makes(&path.join(name)));
+        let report = names.iter().any(|name| name.as_os_str() == kind.file);
         match (names.is_empty(), report, foreign, force) {
             (true, ..) | (false, true, None, true) => {}
             (false, true, None, false) => {
@@ -42,7 +59,8 @@ impl Folder {
             (false, _, foreign, _) => {
                 let which = foreign.map_or(String::new(), |name| format!(" (`{}`)", name.display()));
                 let error = SceneError::new(format!(
-                    "{shown} is not empty, and what is in it is no report of `spectrel compare`{which}"
+                    "{shown} is not empty, and what is in it is no report of `spectrel {}`{which}",
+                    kind.command
                 ));
                 return Err(error.help("name another folder with -o DIR; --force replaces earlier reports only"));
             }
@@ -96,11 +114,4 @@ impl Folder {
         // Without the name of the temporary folder: people know the target only.
         SceneError::new(format!("cannot write {}: {}", self.path.display(), error.kind()))
     }
-}
-
-/// Whether a report holds files of this name: whatever else lies in a folder is never thrown away.
-fn is_of_a_report(file: &Path) -> bool {
-    let picture = file.extension().is_some_and(|extension| extension == "png" || extension == "exr");
-    let report = file.file_name().is_some_and(|name| name == JSON_FILE || name == HTML_FILE);
-    file.is_file() && (picture || report)
 }

@@ -1,0 +1,235 @@
+//! All renders of one scene within a time: every way at more and more samples a pixel, then the reference.
+//!
+//! Ways take turns, each turn with one seed, so that what else the machine does falls on all alike. A count of samples is begun only if
+//! it and a reference of [`LEAST`] × as many samples are expected to end in time, by what the renders before it took.
+
+use super::super::job::window;
+use super::clock::{Clock, Spent};
+use crate::film::{Film, Pixel, fnv1a_64};
+use crate::render::{Kernel, PASS, rays, render};
+use crate::report::bench::Renders;
+use crate::report::difference::Image;
+use crate::scene::{Needs, Scene, SceneError};
+use std::sync::atomic::AtomicBool;
+use std::time::{Duration, Instant};
+
+/// Renders of one way with so many samples: enough to tell noise from difference.
+pub const REPEATS: usize = 4;
+
+/// Renders that the reference is the mean of.
+pub const REPLICATES: usize = 2 * REPEATS;
+
+/// Samples of the reference over the largest count of the sweep: at least, unless time is short, and at most.
+const LEAST: u32 = 16;
+const MOST: u32 = 64;
+
+/// Samples a pixel unless the command line says otherwise: as many of them as the time is enough for.
+pub const LADDER: [u32; 7] = [4, 16, 64, 256, 1024, 4096, 16384];
+
+/// How long one way takes.
+#[derive(Clone, Copy, Debug)]
+struct Cost {
+    /// Before the first sample.
+    setup_seconds: f64,
+    /// Wall time of one sample of every pixel.
+    sample_seconds: f64,
+}
+
+impl Cost {
+    fn of(&self, samples: u32) -> f64 {
+        self.setup_seconds + f64::from(samples) * self.sample_seconds
+    }
+}
+
+/// One render.
+struct Shot {
+    image: Image,
+    setup_seconds: f64,
+    spent: Spent,
+    rays: u64,
+}
+
+/// What is to be rendered.
+#[derive(Clone, Debug)]
+pub struct Plan<'a> {
+    pub seed: u64,
+    /// Samples a pixel, ascending.
+    pub counts: &'a [u32],
+    /// Of the reference; `None`: what there is time for.
+    pub reference: Option<u32>,
+    /// Whether there is no reference yet.
+    pub needs_reference: bool,
+    pub time: Duration,
+}
+
+/// What was rendered.
+pub struct Swept {
+    /// By way; fewer ways than asked for if time was short.
+    pub renders: Vec<Vec<Renders>>,
+    /// Of the reference, and their samples.
+    pub replicates: Vec<Image>,
+    pub replicate_samples: u32,
+    /// The counts that there was no time for.
+    pub counts_left_out: Vec<u32>,
+}
+
+pub struct Sweep<'a> {
+    plan: &'a Plan<'a>,
+    scenes: Vec<Scene>,
+    costs: Vec<Cost>,
+    started: Instant,
+    tell: &'a dyn Fn(String),
+}
+
+impl<'a> Sweep<'a> {
+    /// The usual way first. Renders each once to see how long it takes.
+    pub fn begin(scenes: Vec<Scene>, plan: &'a Plan, tell: &'a dyn Fn(String)) -> Result<Self, SceneError> {
+        let mut sweep = Self { plan, scenes, costs: Vec::new(), started: Instant::now(), tell };
+        let samples = sweep.first().min(PASS);
+        for way in 0..sweep.scenes.len() {
+            let shot = sweep.shoot(way, seed(plan.seed, "pilot", 0), samples)?;
+            sweep.costs.push(cost(&shot, samples));
+        }
+        Ok(sweep)
+    }
+
+    pub fn run(mut self) -> Result<Swept, SceneError> {
+        self.shorten();
+        let mut renders = vec![Vec::new(); self.scenes.len()];
+        let mut done = 0;
+        for (i, &samples) in self.plan.counts.iter().enumerate() {
+            // The first one in any case: without it there is nothing to say.
+            if i > 0 && self.level(samples) + self.least_reference(samples) > self.left() {
+                break;
+            }
+            (self.tell)(format!("{samples} samples a pixel, {} ways, {REPEATS} times each", self.scenes.len()));
+            self.level_of_all(samples, &mut renders)?;
+            done = i + 1;
+        }
+        let (replicates, replicate_samples) = self.reference(self.plan.counts[done - 1])?;
+        Ok(Swept { renders, replicates, replicate_samples, counts_left_out: self.plan.counts[done..].to_vec() })
+    }
+
+    fn first(&self) -> u32 {
+        self.plan.counts[0]
+    }
+
+    /// Seconds until time is over.
+    fn left(&self) -> f64 {
+        self.plan.time.as_secs_f64() - self.started.elapsed().as_secs_f64()
+    }
+
+    /// Drops ways from the end until the fewest samples are expected to fit; the usual one stays.
+    fn shorten(&mut self) {
+        while self.scenes.len() > 1 && self.level(self.first()) + self.least_reference(self.first()) > self.left() {
+            self.scenes.pop();
+            self.costs.pop();
+        }
+    }
+
+    /// Expected seconds of all ways with so many samples.
+    fn level(&self, samples: u32) -> f64 {
+        REPEATS as f64 * self.costs.iter().map(|cost| cost.of(samples)).sum::<f64>()
+    }
+
+    /// Expected seconds of the least reference for so many samples.
+    fn least_reference(&self, samples: u32) -> f64 {
+        match (self.plan.needs_reference, self.plan.reference) {
+            (false, _) => 0.0,
+            (true, Some(asked)) => self.replicates(share(asked)),
+            (true, None) => self.replicates(share(samples.saturating_mul(LEAST))),
+        }
+    }
+
+    fn replicates(&self, samples: u32) -> f64 {
+        REPLICATES as f64 * self.costs[0].of(samples)
+    }
+
+    fn level_of_all(&mut self, samples: u32, renders: &mut [Vec<Renders>]) -> Result<(), SceneError> {
+        renders.iter_mut().for_each(|all| all.push(empty(samples)));
+        for turn in 0..REPEATS {
+            for (way, all) in renders.iter_mut().enumerate() {
+                let shot = self.shoot(way, seed(self.plan.seed, "turn", turn), samples)?;
+                self.costs[way] = cost(&shot, samples);
+                all.last_mut().into_iter().for_each(|renders| add(renders, &shot));
+            }
+        }
+        Ok(())
+    }
+
+    /// Renders of the usual way with seeds of their own, and the samples of each: a power of two, unless asked for.
+    fn reference(&mut self, largest: u32) -> Result<(Vec<Image>, u32), SceneError> {
+        if !self.plan.needs_reference {
+            return Ok((Vec::new(), 0));
+        }
+        let samples = match self.plan.reference {
+            Some(asked) => share(asked),
+            None => self.affordable(share(largest), share(largest.saturating_mul(MOST))),
+        };
+        (self.tell)(format!("the reference, {REPLICATES} × {samples} samples a pixel"));
+        let shots = (0..REPLICATES).map(|i| Ok(self.shoot(0, seed(self.plan.seed, "reference", i), samples)?.image));
+        Ok((shots.collect::<Result<_, SceneError>>()?, samples))
+    }
+
+    /// The largest power of two that ends in time, within these limits.
+    fn affordable(&self, least: u32, most: u32) -> u32 {
+        let (left, least) = (self.left(), least.next_power_of_two());
+        let larger = std::iter::successors(Some(least), |samples| samples.checked_mul(2));
+        let fitting = larger.take_while(|&samples| samples <= most && self.replicates(samples) <= left);
+        fitting.last().unwrap_or(least)
+    }
+
+    fn shoot(&mut self, way: usize, seed: u64, samples: u32) -> Result<Shot, SceneError> {
+        let scene = &mut self.scenes[way];
+        scene.settings.seed = seed;
+        let size = [scene.settings.width, scene.settings.height];
+        let mut film = Film::new(size, window(scene.settings.crop)).map_err(SceneError::new)?;
+        let setup = Clock::start();
+        let needs = Needs::of(scene);
+        let kernel = Kernel::new(scene, &needs);
+        let (setup_seconds, before, clock) = (setup.spent().wall_seconds, rays_traced(), Clock::start());
+        render(&kernel, &mut film, 0..u64::from(samples), &(), &AtomicBool::new(false));
+        let (spent, rays) = (clock.spent(), rays_traced() - before);
+        let image = film.pixels().iter().map(Pixel::mean).map(|xyz| xyz.map(|c| c as f32)).collect();
+        Ok(Shot { image, setup_seconds, spent, rays })
+    }
+}
+
+/// By all threads that render.
+fn rays_traced() -> u64 {
+    rayon::broadcast(|_| rays::traced()).into_iter().fold(0, u64::wrapping_add)
+}
+
+fn empty(samples: u32) -> Renders {
+    let none = Vec::new;
+    Renders {
+        samples,
+        cpu_seconds: none(),
+        wall_seconds: none(),
+        setup_seconds: none(),
+        rays: none(),
+        images: Vec::new(),
+    }
+}
+
+fn add(renders: &mut Renders, shot: &Shot) {
+    renders.cpu_seconds.push(shot.spent.cpu_seconds);
+    renders.wall_seconds.push(shot.spent.wall_seconds);
+    renders.setup_seconds.push(shot.setup_seconds);
+    renders.rays.push(shot.rays as f64);
+    renders.images.push(shot.image.clone());
+}
+
+fn cost(shot: &Shot, samples: u32) -> Cost {
+    Cost { setup_seconds: shot.setup_seconds, sample_seconds: shot.spent.wall_seconds / f64::from(samples) }
+}
+
+/// Of each replicate, for so many samples of all.
+fn share(samples: u32) -> u32 {
+    samples.div_ceil(REPLICATES as u32)
+}
+
+/// Seeds that have nothing to do with each other.
+fn seed(seed: u64, purpose: &str, number: usize) -> u64 {
+    fnv1a_64(format!("bench: {purpose} {number} of seed {seed}").as_bytes())
+}
