@@ -221,6 +221,7 @@ fn targets_that_make_no_sense_are_refused() {
         (&["--target-error", "delta=1"], "dE=BOUND, dE95=BOUND or rmse=BOUND"),
         (&["--target-error", "0.5"], "dE=BOUND, dE95=BOUND or rmse=BOUND"),
         (&["--target-error", "dE=1,dE=2"], "bounds the mean ΔE2000 twice: 1 and 2"),
+        (&["--target-error", "dE=1", "--spp", "4"], "needs --spp 8 or more"),
         (&["--time", "0s"], "a time above 0"),
         (&["--time", "5 parsecs"], "such as 60s, 5m or 1h"),
         (&["--target-error", "dE=1", "--preview"], "--preview"),

@@ -133,7 +133,12 @@ impl EffortArgs {
                 return Err(SceneError::new(message));
             }
         }
-        let most = asked.map_or(LIMIT, u64::from);
+        let (most, least) = (asked.map_or(LIMIT, u64::from), REPLICATES as u64);
+        if self.judges() && most < least {
+            let message =
+                format!("--target-error compares {least} replicates of each pixel: it needs --spp {least} or more");
+            return Err(SceneError::new(message));
+        }
         Ok(match (self.target_error.is_empty(), self.time) {
             (true, None) => Effort::Samples(u64::from(own)),
             (true, Some(time)) => Effort::Time { time, most },
@@ -190,7 +195,8 @@ impl Work<'_> {
         develop: &Develop,
     ) -> Result<Reached, FilmError> {
         let started = Instant::now();
-        let first = FIRST.min(most).max(REPLICATES as u64);
+        let each = REPLICATES as u64;
+        let first = (FIRST.min(most) / each).max(1) * each;
         render_layers(self.recorder, layers, 0..first, self.progress, self.cancel);
         let (width, view) = viewed(layers, develop)?;
         let shares = self.shares(&Noise::of_each(layers.replicates(), width, &view), targets, layers);
@@ -212,9 +218,9 @@ impl Work<'_> {
             }
             // Where either half finds the other one quiet enough, but both together are not, both go on.
             let next = if next == means { means.map(|mean| mean * STEP.0) } else { next };
-            means = next.map(|mean| mean.min(affordable).min(most as f64));
+            means = [0, 1].map(|half| next[half].min(affordable).min(most as f64).max(means[half]));
             let has = layers.film().pixels().iter().map(|pixel| u64::from(pixel.count()) + u64::from(pixel.rejected()));
-            let plan = shares.ranges(has, |at| means[half(at, width)], REPLICATES as u64);
+            let plan = shares.ranges(has, |at| means[half(at, width)], each);
             render_planned(self.recorder, layers, &plan, self.progress, self.cancel);
         }
     }

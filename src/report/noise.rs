@@ -30,7 +30,7 @@ const REACH: usize = 1;
 /// |N(0, 1)| at the middles of eight equally likely parts.
 const HALF_NORMAL: [f64; 8] = [0.0784, 0.2372, 0.4023, 0.5791, 0.7764, 1.0100, 1.3180, 1.8627];
 
-/// The noise of a picture, pixel by pixel, row by row.
+/// The noise of a picture, pixel by pixel, row by row. Of no pixels, as in half of a single one, it is 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Noise {
     /// Root mean square ΔE2000 against the picture without noise.
@@ -98,7 +98,7 @@ impl Noise {
         all.par_sort_unstable_by(f64::total_cmp);
         let at = |share: f64| {
             let place = libm::ceil(share * all.len() as f64) as usize;
-            all.get(place.clamp(1, all.len().max(1)) - 1).copied().unwrap_or(f64::INFINITY)
+            all.get(place.clamp(1, all.len().max(1)) - 1).copied().unwrap_or(0.0)
         };
         let pixels = (self.de.len() as f64).max(1.0);
         let error = (sharing() * PERCENTILE * (1.0 - PERCENTILE) / pixels).sqrt();
@@ -165,7 +165,31 @@ fn trace(matrix: &Matrix3, &[xx, yy, zz, xy, yz, zx]: &[f64; 6]) -> f64 {
 fn bound_of_mean(values: &[f32], sharing: f64) -> Bound {
     let count = (values.len() as f64).max(1.0);
     let estimate = values.iter().map(|value| f64::from(*value)).sum::<f64>() / count;
+    if !estimate.is_finite() {
+        return Bound { estimate: f64::INFINITY, promised: f64::INFINITY };
+    }
     let squares =
         values.iter().map(|value| (f64::from(*value) - estimate) * (f64::from(*value) - estimate)).sum::<f64>();
     Bound { estimate, promised: estimate + CONFIDENCE * (sharing * squares / (count * count)).sqrt() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A promise of what nobody has measured would end a render before it has begun.
+    #[test]
+    fn what_is_not_known_is_not_promised() {
+        let mut seen = Replicates::default();
+        (0..16).for_each(|i| seen.add(i % 8, [1.0, 1.0, 1.0 + 0.01 * i as f32]));
+        let view = View::new(0.0, [0.95, 1.0, 1.09]);
+        let known = Noise::of(&[seen; 4], 2, &view);
+        assert!(known.mean_de().promised > 0.0 && known.mean_de().promised < 10.0);
+        let unknown = Noise::of(&[seen, seen, seen, Replicates::default()], 2, &view);
+        for bound in [unknown.mean_de(), unknown.de95(), unknown.rmse()] {
+            assert_eq!((bound.estimate, bound.promised), (f64::INFINITY, f64::INFINITY));
+        }
+        let nothing = Noise::of_half(&[seen], 1, &view, 1);
+        assert_eq!((nothing.mean_de().promised, nothing.de95().promised, nothing.rmse().promised), (0.0, 0.0, 0.0));
+    }
 }

@@ -6,8 +6,7 @@
 //! it is missed for good. Here σₚ is that of the pixels around it, without itself, and of the first samples alone, so the number of a
 //! pixel's samples and their values are independent but for the common factor. When to stop is decided for either half of a chessboard by the
 //! noise of the other ([`super::noise::half`]), for the same reason: a picture that stops when it happens to look quiet is darker in the mean.
-//! So a pixel's mean is what it is without any plan
-//! (`tests/target_error.rs`).
+//! So a pixel's mean is what it is without any plan (`tests/target_error.rs`).
 
 use std::ops::Range;
 
