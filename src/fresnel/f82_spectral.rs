@@ -20,7 +20,7 @@ use super::{Model, conductor};
 use crate::spectrum::Lanes;
 
 /// Where the correction is largest, and where it is fitted.
-const COS_82: f32 = 1.0 / 7.0;
+const COS_82: f32 = super::COS_82 as f32;
 
 /// The corrected curve of one hit.
 #[derive(Clone, Copy, Debug, PartialEq)]

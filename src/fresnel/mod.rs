@@ -61,7 +61,7 @@ pub use ready::{Fitted, Ready};
 pub use rgb::{DielectricFresnel, Fresnel, RgbFresnel};
 pub use specimen::Specimen;
 pub use tabulated::Tabulated;
-pub use target::{COSINES, Target};
+pub use target::{COS_82, COSINES, Target};
 
 use crate::spectrum::Lanes;
 use model::models;

@@ -17,14 +17,16 @@ use super::{Dielectric, Model, dielectric};
 use crate::spectrum::Lanes;
 
 /// By the cosine on the side that light comes from.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SchlickIncident<const N: usize>(Schlick<N>);
+pub type SchlickIncident<const N: usize> = Side<N, true>;
 
 /// By the cosine on the rarer side.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SchlickTransmitted<const N: usize>(Schlick<N>);
+pub type SchlickTransmitted<const N: usize> = Side<N, false>;
 
-impl<const N: usize> Model<N> for SchlickIncident<N> {
+/// Schlick's curve by the cosine of the incident side, or of the rarer one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Side<const N: usize, const INCIDENT: bool>(Schlick<N>);
+
+impl<const N: usize, const INCIDENT: bool> Model<N> for Side<N, INCIDENT> {
     const DIELECTRICS_ONLY: bool = true;
 
     #[inline]
@@ -39,22 +41,10 @@ impl<const N: usize> Model<N> for SchlickIncident<N> {
 
     #[inline]
     fn dielectric(n1: &Lanes<N>, n2: &Lanes<N>, cos_theta_i: &Lanes<N>) -> Dielectric<N> {
-        let cos_theta_t = dielectric::cos_theta_t(n1, n2, cos_theta_i);
-        let curve = Self::new(n1, n2, &Lanes::ZERO).reflectance(cos_theta_i);
-        dielectric::bounded(n1, n2, &curve, cos_theta_t)
-    }
-}
-
-impl<const N: usize> Model<N> for SchlickTransmitted<N> {
-    const DIELECTRICS_ONLY: bool = true;
-
-    #[inline]
-    fn new(n1: &Lanes<N>, n2: &Lanes<N>, k2: &Lanes<N>) -> Self {
-        Self(Schlick::new(n1, n2, k2))
-    }
-
-    #[inline]
-    fn reflectance(&self, cos_theta_i: &Lanes<N>) -> Lanes<N> {
-        self.0.reflectance(cos_theta_i)
+        if !INCIDENT {
+            return Schlick::dielectric(n1, n2, cos_theta_i);
+        }
+        let curve = Schlick::new(n1, n2, &Lanes::ZERO).reflectance(cos_theta_i);
+        dielectric::bounded(n1, n2, &curve, dielectric::cos_theta_t(n1, n2, cos_theta_i))
     }
 }

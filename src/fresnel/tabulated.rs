@@ -36,8 +36,8 @@ impl<'a> Tabulated<'a> {
     /// channel of an RGB model, which knows no light but its own.
     pub fn color(&self, cos_theta_i: f64, bounces: i32, meter: &Colorimeter) -> [f64; 3] {
         match self.model {
-            Fitted::Spectral(model) => meter.rgb(|nm| power(spectral(model, &self.specimen, nm, cos_theta_i), bounces)),
-            Fitted::Rgb(curve) => curve.reflectance(cos_theta_i as f32).0.map(|value| power(f64::from(value), bounces)),
+            Fitted::Spectral(model) => meter.rgb(|nm| spectral(model, &self.specimen, nm, cos_theta_i).powi(bounces)),
+            Fitted::Rgb(curve) => curve.reflectance(cos_theta_i as f32).0.map(|value| f64::from(value).powi(bounces)),
         }
     }
 }
@@ -52,8 +52,4 @@ fn spectral(model: SpectralModel, specimen: &Specimen, nm: f64, cos_theta_i: f64
         true => f64::from(model.dielectric(&n1, &n2, &Lanes([cos])).r[0]),
         false => f64::from(model.at(&n1, &n2, &k2).reflectance(cos)[0]),
     }
-}
-
-fn power(value: f64, exponent: i32) -> f64 {
-    (0..exponent).fold(1.0, |product, _| product * value)
 }

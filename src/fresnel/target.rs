@@ -8,7 +8,7 @@ use std::cell::OnceCell;
 pub const COSINES: usize = 101;
 
 /// The cosine at which c (1 − c)⁶ is largest, 81.8°: where F82 models are fitted.
-pub(super) const COS_82: f64 = 1.0 / 7.0;
+pub const COS_82: f64 = 1.0 / 7.0;
 
 /// An interface and what its colours are measured with.
 #[derive(Clone, Debug)]

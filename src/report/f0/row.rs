@@ -9,7 +9,7 @@
 //!   (`tests/f0_tables.rs`): 4e-10 in linear sRGB for every data set of the library but air, 4e-8 there, whose F rises within 1° of grazing.
 
 use super::{Color, Engines, Instrument};
-use crate::fresnel::{exact, quadrature};
+use crate::fresnel::{COS_82, exact, quadrature};
 use crate::spectrum::{About, Confidence, Ior, citation};
 use serde::Serialize;
 use std::sync::Arc;
@@ -120,7 +120,7 @@ impl Curve {
         Self {
             f0: f(1.0),
             f82: f(libm::cos(82.0_f64.to_radians())),
-            f_mu17: f(1.0 / 7.0),
+            f_mu17: f(COS_82),
             f_avg: quadrature::gauss(&mut { weighted }, 0.0, 1.0),
         }
     }

@@ -145,14 +145,14 @@ impl Measure<'_> {
 
     fn colors(&self, reflected: &Reflected, light: usize, bounces: i32) -> Colors {
         match reflected {
-            Reflected::Colors(colors) => colors.iter().map(|rgb| rgb.map(|value| power(value, bounces))).collect(),
+            Reflected::Colors(colors) => colors.iter().map(|rgb| rgb.map(|value| value.powi(bounces))).collect(),
             Reflected::Spectra(spectra) => spectra.iter().map(|values| self.color(values, light, bounces)).collect(),
         }
     }
 
     fn color(&self, values: &[f64], light: usize, bounces: i32) -> [f64; 3] {
         let mut places = self.wavelengths.places[light].iter();
-        self.lights[light].meter.rgb(|_| places.next().map_or(0.0, |&place| power(values[place], bounces)))
+        self.lights[light].meter.rgb(|_| places.next().map_or(0.0, |&place| values[place].powi(bounces)))
     }
 
     fn row(
@@ -228,10 +228,6 @@ fn average(colors: &[[f64; 3]]) -> [f64; 3] {
         (0..3).for_each(|channel| sum[channel] += weight * step / 3.0 * 2.0 * cos * color[channel]);
     }
     sum
-}
-
-fn power(value: f64, exponent: i32) -> f64 {
-    (0..exponent).fold(1.0, |product, _| product * value)
 }
 
 fn fitted(tabulated: &Tabulated) -> BTreeMap<&'static str, [f64; 3]> {
