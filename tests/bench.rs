@@ -189,7 +189,7 @@ fn without_dispersion_a_diamond_is_one_of_a_single_index() {
     let usual = scene(SCENE, &Overrides { samples: Some(8), ..Overrides::default() });
     let dispersive = usual.media.iter().find(|medium| medium.name == "diamond").expect("a diamond");
     assert!(dispersive.dispersive && !diamond.dispersive);
-    assert_eq!(n, usual.spectra.get(dispersive.n).at(587.5618));
+    assert_eq!(n, usual.spectra.get(dispersive.n).at(spectrel::spectrum::HELIUM_D_NM));
     assert!((n - 2.4175).abs() < 5e-4, "{n}");
     let constant = SCENE.replace("material = \"diamond\"", "material = \"flat\"")
         + &format!("[materials.flat.dielectric]\nior = {{ n = {n:?}, k = 0 }}\n");

@@ -67,5 +67,8 @@ pub use upsample_table::UpsampleTable;
 pub const LAMBDA_MIN_NM: f64 = 360.0;
 pub const LAMBDA_MAX_NM: f64 = 830.0;
 
+/// The yellow helium line d, nm, at which catalogues print n_d (ISO 7944).
+pub const HELIUM_D_NM: f64 = 587.56;
+
 /// Luminous efficacy, lm/W: luminance in cd/m² is this times ∫ L ȳ dλ.
 pub const LUMENS_PER_WATT: f64 = 683.0;

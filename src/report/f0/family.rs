@@ -7,8 +7,8 @@
 //! - of another axis of a crystal (names that end in `-o`, `-e`, `-alpha` …) it is another index of the same crystal, and belongs to none;
 //! - in the folder of a mixture (`Cu-Zn`), another composition is another material.
 
-use super::{D_LINE_NM, Instrument};
-use crate::spectrum::{Ior, Library, Quantity, SpectrumError};
+use super::Instrument;
+use crate::spectrum::{HELIUM_D_NM, Ior, Library, Quantity, SpectrumError};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
@@ -52,7 +52,7 @@ impl Families {
 const CLEAR_K: f64 = 1e-2;
 
 fn is_clear(ior: &Ior) -> bool {
-    ior.at(D_LINE_NM).1 < CLEAR_K
+    ior.at(HELIUM_D_NM).1 < CLEAR_K
 }
 
 fn may_be_same(a: &str, b: &str) -> bool {

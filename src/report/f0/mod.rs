@@ -39,5 +39,5 @@ pub use engines::Engines;
 pub use family::Families;
 pub use instrument::{Color, Conditions, Instrument, Labels, observer_name};
 pub use likeness::{Likeness, Likenesses, Nearer};
-pub use row::{D_LINE_NM, Provenance, Row, Specular, Subject};
+pub use row::{Provenance, Row, Specular, Subject};
 pub use table::{Distance, Spread, Table, Widest};

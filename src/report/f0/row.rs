@@ -10,12 +10,9 @@
 
 use super::{Color, Engines, Instrument};
 use crate::fresnel::{COS_82, exact, quadrature};
-use crate::spectrum::{About, Confidence, Ior, citation};
+use crate::spectrum::{About, Confidence, HELIUM_D_NM, Ior, citation};
 use serde::Serialize;
 use std::sync::Arc;
-
-/// The helium d line, nm, at which catalogues state n_d.
-pub const D_LINE_NM: f64 = 587.56;
 
 /// The largest share of what the eye sees that may lie outside a data set before that is said.
 const UNCOVERED: f64 = 1e-3;
@@ -36,7 +33,7 @@ pub struct Row {
     /// The name of the data set.
     pub ior: String,
     pub class: &'static str,
-    /// n and k at [`D_LINE_NM`].
+    /// n and k at [`HELIUM_D_NM`].
     pub n_d: f64,
     pub k_d: f64,
     pub f0: Color,
@@ -85,7 +82,7 @@ impl Row {
         let color = |pick: fn(&Curve) -> f64| instrument.color(instrument.rgb(curves.iter().map(pick)));
         let (f0, f_mu17) = (color(|curve| curve.f0), color(|curve| curve.f_mu17));
         let luminance = instrument.luminance(curves.iter().map(|curve| curve.f0));
-        let (n_d, k_d) = ior.at(D_LINE_NM);
+        let (n_d, k_d) = ior.at(HELIUM_D_NM);
         let specular = (!conductor).then(|| Specular::new(luminance, n_d));
         Self {
             engines: Engines::new(&f0, &f_mu17, specular, instrument.conditions.space),

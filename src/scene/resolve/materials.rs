@@ -6,7 +6,7 @@ use crate::scene::describe::{self, AbsorptionSource, IndexSource, ReflectanceSou
 use crate::scene::numbers::short;
 use crate::scene::{Interface, Medium, MediumId, Pattern, RgbColors, SceneError, Surface, Text};
 use crate::spectrum::{
-    Adaptation, Colorimeter, Ior, RgbSpace, Spectrum, SpectrumError, Upsampler, nearest, srgb_primaries,
+    Adaptation, Colorimeter, HELIUM_D_NM, Ior, RgbSpace, Spectrum, SpectrumError, Upsampler, nearest, srgb_primaries,
 };
 use std::fmt::Display;
 use std::ops::{Range, RangeInclusive};
@@ -29,9 +29,6 @@ struct Described {
 /// Indices that single precision computes with; in the visible, metals and stones are within 0.01 … 20.
 const N_RANGE: RangeInclusive<f64> = 1e-6..=1e6;
 const K_RANGE: RangeInclusive<f64> = 0.0..=1e6;
-
-/// The wavelength of the printed index n_d of glasses and gems: the yellow helium line d (ISO 7944), nm.
-const HELIUM_D_NM: f64 = 587.5618;
 
 impl Resolver<'_> {
     /// The surface of a material by its name in this scene or in the library.
