@@ -39,8 +39,14 @@ pub enum GeometryError {
     #[error("the mesh has no triangle")]
     NoTriangles,
 
+    #[error("none of the mesh's {count} triangles has an area: nothing of it can be seen")]
+    NoTriangleWithArea { count: usize },
+
     #[error("a triangle of the mesh names corner {index}, but it has {count} (the first one is 0)")]
     NoSuchCorner { index: u32, count: usize },
+
+    #[error("{count} triangles or corners are more than the {max} a mesh can hold: cut it into several")]
+    TooManyTriangles { count: usize, max: usize },
 
     #[error("{count} shapes are more than the {max} a world can hold")]
     TooManyShapes { count: usize, max: usize },

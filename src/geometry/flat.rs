@@ -96,7 +96,7 @@ impl Flat {
         let margin = 2.0 * EPSILON * (reach + t);
         let side = if front { Side::Outside } else { Side::Inside };
         Some(PlaneCrossing {
-            crossing: Crossing { t, slack, side, facet: 0 },
+            crossing: Crossing { t, slack, side, facet: 0, place: 0 },
             a: w.dot(self.dual_u),
             b: w.dot(self.dual_v),
             margin_a: margin * sum_abs(self.dual_u),

@@ -150,10 +150,12 @@ pub(super) struct Probe {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Crossing {
     pub t: f32,
-    /// Bound on the rounding error of `t`.
+    /// Bound on the rounding error of `t`; infinite where a mesh is met that the ray does not leave, since nobody asks for it.
     pub slack: f32,
     pub side: Side,
     pub facet: u32,
+    /// Where a mesh keeps the triangle for rays; 0 for other shapes.
+    pub place: u32,
 }
 
 /// |x| + |y| + |z|, the natural measure of the rounding error of a sum of products.

@@ -132,13 +132,14 @@ impl Shape {
     }
 
     /// Point and normals where a ray arrives.
-    pub(super) fn surface(&self, near: Vec3, facet: u32) -> Surface {
+    #[inline]
+    pub(super) fn surface(&self, near: Vec3, crossing: &Crossing) -> Surface {
         match self {
             Shape::Sphere(s) => s.surface(near),
             Shape::Rectangle(s) => s.surface(near),
             Shape::Disk(s) => s.surface(near),
-            Shape::Convex(s) => s.surface(near, facet),
-            Shape::Mesh(s) => s.surface(near, facet),
+            Shape::Convex(s) => s.surface(near, crossing.facet),
+            Shape::Mesh(s) => s.surface(near, crossing),
         }
     }
 

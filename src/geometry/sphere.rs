@@ -80,14 +80,14 @@ impl Sphere {
             let root = discriminant.max(0.0).sqrt();
             // The larger of the two forms never subtracts equal numbers.
             let t = if along >= 0.0 { along + root } else { -c / (root - along) };
-            return Some(Crossing { t, slack: slack(error, root, t), side: Side::Inside, facet: 0 });
+            return Some(Crossing { t, slack: slack(error, root, t), side: Side::Inside, facet: 0, place: 0 });
         }
         if !(along > 0.0 && discriminant >= 0.0) {
             return None;
         }
         let root = discriminant.sqrt();
         let t = (c / (along + root)).max(0.0);
-        Some(Crossing { t, slack: slack(error, root, t), side: Side::Outside, facet: 0 })
+        Some(Crossing { t, slack: slack(error, root, t), side: Side::Outside, facet: 0, place: 0 })
     }
 
     /// A ray that sets off from the surface inwards: the other end of its chord. With the origin on the sphere that is
@@ -97,7 +97,7 @@ impl Sphere {
         let along = (-(origin - self.center).dot(direction)).max(0.0);
         let t = 2.0 * along;
         let error = 2.0 * self.radius * (4.0 * EPSILON * (super::ray::sum_abs(origin) + self.radius));
-        Crossing { t, slack: slack(error, along, t), side: Side::Inside, facet: 0 }
+        Crossing { t, slack: slack(error, along, t), side: Side::Inside, facet: 0, place: 0 }
     }
 
     /// Azimuth from +x towards +y over a whole turn, and angle from −z over half of one, each 0…1.

@@ -70,15 +70,19 @@ impl World {
         let mut limit = t_max.min(f32::MAX);
         let mut best: Option<Nearest> = None;
         let departed = departed(ray);
-        for (shape, leaving) in all_left(ray, also) {
-            if let Some(again) = self.shape(shape).and_then(|own| own.again(&leaving, limit))
+        // Not by an iterator over all of them: to put it together took longer than a node.
+        let mut leave = |departs| {
+            if let Some((shape, leaving)) = leaving(ray, departs)
+                && let Some(again) = self.shape(shape).and_then(|own| own.again(&leaving, limit))
                 && again.t <= limit
             {
                 best = Some(Nearest { crossing: again, shape: shape.0 });
                 // Strictly less: what touches the solid at its exit comes after it.
                 limit = if again.side == Side::Inside { again.t - again.slack } else { again.t };
             }
-        }
+        };
+        leave(ray.departs);
+        also.iter().for_each(|&departs| leave(departs));
         self.visit(ray, &probe, limit, |shape, limit| {
             if shape == departed || is_among(also, shape) {
                 return limit;
@@ -228,10 +232,11 @@ impl World {
         Probe { origin, direction, origin_error, leaves_solid }
     }
 
+    #[inline]
     fn hit(&self, ray: &Ray, nearest: Nearest) -> Hit {
         let Crossing { t, side, facet, .. } = nearest.crossing;
         let near = ray.origin + ray.direction * t;
-        let Surface { point, normal, shading } = self.shapes[nearest.shape as usize].surface(near, facet);
+        let Surface { point, normal, shading } = self.shapes[nearest.shape as usize].surface(near, &nearest.crossing);
         Hit { t, shape: ShapeId(nearest.shape), side, facet, point, normal, shading }
     }
 }

@@ -14,7 +14,7 @@ impl Convex {
     pub(in crate::geometry) fn exit(&self, origin: Vec3, direction: Vec3) -> Crossing {
         let (t, facet) = self.exit_one(origin, direction);
         let error = 4.0 * EPSILON * (sum_abs(origin) + self.radius);
-        Crossing { t, slack: self.slack(error, t, facet, direction), side: Side::Inside, facet }
+        Crossing { t, slack: self.slack(error, t, facet, direction), side: Side::Inside, facet, place: 0 }
     }
 
     /// A ray from elsewhere: where it enters, or if it begins truly inside where it leaves.
@@ -55,7 +55,7 @@ impl Convex {
         }
         if !outside.contains(&true) {
             let (t, facet) = self.exit_one(probe.origin, d);
-            return Some(Crossing { t, slack: self.slack(error, t, facet, d), side: Side::Inside, facet });
+            return Some(Crossing { t, slack: self.slack(error, t, facet, d), side: Side::Inside, facet, place: 0 });
         }
         if missed.contains(&true) {
             return None;
@@ -74,7 +74,7 @@ impl Convex {
         if !(t <= last) {
             return None;
         }
-        Some(Crossing { t, slack: self.slack(error, t, facet, d), side: Side::Outside, facet })
+        Some(Crossing { t, slack: self.slack(error, t, facet, d), side: Side::Outside, facet, place: 0 })
     }
 
     #[inline]

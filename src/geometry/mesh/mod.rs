@@ -19,12 +19,14 @@ pub use placed::Placed;
 use std::sync::OnceLock;
 
 use glam::{DVec3, Vec2, Vec3};
+use rayon::prelude::*;
 
-use super::tree::Tree;
+use super::tree::{Groups, Tree};
 use super::{Bounds, GeometryError, Triangles, check};
 use block::{Block, WIDTH};
 
-/// Triangles ready for rays. Memory, bytes a triangle of a large mesh: blocks 50, tree 15, what the file said 20–40.
+/// Triangles ready for rays. Memory, bytes a triangle of a large mesh: blocks 51, tree 16, what the file said 18–40; while it is built
+/// 170 at most (`cargo bench --bench rays -- build 1582`).
 #[derive(Clone, Debug)]
 pub struct Mesh {
     triangles: Triangles,
@@ -36,6 +38,9 @@ pub struct Mesh {
     /// Shares of the area up to and with each triangle; worked out when light is first sampled.
     shares: OnceLock<Vec<f64>>,
 }
+
+/// Triangles and corners that a mesh can have.
+const MAX: usize = (u32::MAX / 4) as usize;
 
 /// A point of a triangle.
 #[derive(Clone, Copy, Debug)]
@@ -50,29 +55,21 @@ struct Spot {
 impl Mesh {
     /// A closed mesh that is inside out is turned round: its outside is where there is more room.
     pub fn new(mut triangles: Triangles) -> Result<Self, GeometryError> {
-        if triangles.indices.is_empty() {
-            return Err(GeometryError::NoTriangles);
-        }
-        let count = triangles.positions.len();
-        if let Some(&index) = triangles.indices.iter().flatten().find(|&&index| index as usize >= count) {
-            return Err(GeometryError::NoSuchCorner { index, count });
-        }
-        for &position in &triangles.positions {
-            check::point("a corner of the mesh", position)?;
-        }
-        let mut surroundings = Surroundings::of(&triangles);
+        examine(&triangles)?;
+        let (surroundings, (tree, groups)) = rayon::join(|| Surroundings::of(&triangles), || plant(&triangles));
         let inside_out = surroundings.is_closed() && surroundings.volume < 0.0;
         if inside_out {
             turn_round(&mut triangles);
-            surroundings.volume = -surroundings.volume;
         }
-        let corners = |triangle: u32| triangles.indices[triangle as usize].map(|i| triangles.positions[i as usize]);
-        let boxes: Vec<Bounds> = (0..triangles.indices.len() as u32).map(|t| Bounds::of(corners(t))).collect();
-        let bounds = boxes.iter().fold(Bounds::EMPTY, |all, b| all.union(b));
-        let mut blocks = Vec::new();
-        let tree = Tree::grouped(&boxes, WIDTH as u32, |group| {
-            blocks.push(Block::new(&group.iter().map(|&t| (corners(t), t)).collect::<Vec<_>>()));
-        });
+        let surroundings =
+            Surroundings { volume: surroundings.volume * if inside_out { -1.0 } else { 1.0 }, ..surroundings };
+        let block = |leaf| {
+            let group = groups.get(leaf);
+            let lane = |k: usize| group[k.min(group.len() - 1)];
+            Block::new(std::array::from_fn(|k| (corners(&triangles, lane(k)), lane(k))))
+        };
+        let blocks: Vec<Block> = (0..groups.len()).into_par_iter().map(block).collect();
+        let bounds = blocks.par_iter().map(Block::bounds).reduce(|| Bounds::EMPTY, |a, b| a.union(&b));
         Ok(Self { triangles, blocks, tree, bounds, surroundings, inside_out, shares: OnceLock::new() })
     }
 
@@ -143,18 +140,58 @@ impl Mesh {
         self.shares().get(at).map_or(0.0, |share| share - before)
     }
 
-    /// The point of a triangle nearest to one that lies on it but for rounding: put onto its plane, then between its edges, and
-    /// at least `margin` away from each where there is room.
-    fn spot(&self, near: DVec3, triangle: u32, margin: f64) -> Spot {
-        let [a, b, c] = self.corners(triangle);
+    /// Corners of a triangle where a ray has met it, beside the tree: nothing has to be fetched for them.
+    #[inline]
+    fn corners_at(&self, place: u32) -> [DVec3; 3] {
+        let (block, lane) = (place as usize / WIDTH, place as usize % WIDTH);
+        self.blocks[block].corners(lane).map(|corner| corner.as_dvec3())
+    }
+
+    /// The normal of the surface that the triangles stand for, outwards, any length; none if it is the triangle's own.
+    fn smooth_normal(&self, spot: &Spot, triangle: u32) -> Option<DVec3> {
+        let (normals, indices) = (&self.triangles.normals, &self.triangles.indices);
+        let corners = indices.get(triangle as usize).filter(|_| !normals.is_empty())?;
+        let sum: DVec3 = corners
+            .iter()
+            .zip(spot.weights)
+            .filter_map(|(&corner, weight)| Some(normals.get(corner as usize)?.as_dvec3().try_normalize()? * weight))
+            .sum();
+        (sum.dot(spot.normal) > 0.0).then_some(sum)
+    }
+
+    /// Texture coordinates at a point of a triangle, if the mesh has some.
+    fn uv(&self, near: DVec3, triangle: u32) -> Option<Vec2> {
+        let corners = self.triangles.indices.get(triangle as usize)?;
+        let weights = Spot::nearest(near, self.corners(triangle)).weights;
+        let [a, b, c] = corners.map(|corner| self.triangles.uvs.get(corner as usize).copied());
+        let [a, b, c] = [a?, b?, c?].map(|uv| uv.as_dvec2());
+        Some((a * weights[0] + b * weights[1] + c * weights[2]).as_vec2())
+    }
+}
+
+impl Spot {
+    /// The point of a triangle nearest to one that lies on it but for rounding: put onto its plane, then between its edges.
+    #[inline]
+    fn nearest(near: DVec3, corners: [DVec3; 3]) -> Self {
+        Self::within(near, corners, |_, _| [0.0; 3])
+    }
+
+    /// The same, at least `margin` away from each edge where there is room.
+    fn away_from_edges(near: DVec3, corners: [DVec3; 3], margin: f64) -> Self {
+        // A weight is a distance from an edge over the height above it, and the height is twice the area over the edge.
+        Self::within(near, corners, |edges, area2| edges.map(|edge| margin * edge.length() / area2.sqrt()))
+    }
+
+    /// `least` gives the smallest weights allowed, from the edges opposite of the corners and four times the area, squared.
+    #[inline]
+    fn within(near: DVec3, [a, b, c]: [DVec3; 3], least: impl FnOnce([DVec3; 3], f64) -> [f64; 3]) -> Self {
         let (ab, ac, ap) = (b - a, c - a, near - a);
         let normal = ab.cross(ac);
         let area2 = normal.length_squared();
         let v = ap.cross(ac).dot(normal) / area2;
         let w = ab.cross(ap).dot(normal) / area2;
         let mut weights = [1.0 - v - w, v, w];
-        // A weight is a distance from an edge over the height above it, and the height is twice the area over the edge.
-        let least = [(c - b), ac, ab].map(|edge| margin * edge.length() / area2.sqrt());
+        let least = least([c - b, ac, ab], area2);
         let room = 1.0 - least.iter().sum::<f64>();
         if !(room > 0.0) || weights.iter().any(|x| !x.is_finite()) {
             weights = [1.0 / 3.0; 3];
@@ -164,29 +201,42 @@ impl Mesh {
             let sum: f64 = above.iter().sum();
             weights = [0, 1, 2].map(|i| least[i] + above[i] * (room / sum));
         }
-        Spot { weights, point: a * weights[0] + b * weights[1] + c * weights[2], normal }
+        Self { weights, point: a * weights[0] + b * weights[1] + c * weights[2], normal }
     }
+}
 
-    /// The normal of the surface that the triangles stand for, outwards, any length; the triangle's own without normals.
-    fn smooth_normal(&self, spot: &Spot, triangle: u32) -> DVec3 {
-        let (normals, indices) = (&self.triangles.normals, &self.triangles.indices);
-        let Some(corners) = indices.get(triangle as usize).filter(|_| !normals.is_empty()) else { return spot.normal };
-        let sum: DVec3 = corners
-            .iter()
-            .zip(spot.weights)
-            .filter_map(|(&corner, weight)| Some(normals.get(corner as usize)?.as_dvec3().try_normalize()? * weight))
-            .sum();
-        if sum.dot(spot.normal) > 0.0 { sum } else { spot.normal }
+/// Whether there are triangles, not too many for 32 bits of number, edge and way, of corners that exist and are numbers.
+fn examine(triangles: &Triangles) -> Result<(), GeometryError> {
+    let Triangles { positions, indices, .. } = triangles;
+    if indices.is_empty() {
+        return Err(GeometryError::NoTriangles);
     }
+    let count = indices.len().max(positions.len());
+    if count > MAX {
+        return Err(GeometryError::TooManyTriangles { count, max: MAX });
+    }
+    let count = positions.len();
+    if let Some(&index) = indices.iter().flatten().find(|&&index| index as usize >= count) {
+        return Err(GeometryError::NoSuchCorner { index, count });
+    }
+    positions.iter().try_for_each(|&position| check::point("a corner of the mesh", position))?;
+    let has_area = |triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(|index| positions[index as usize].as_dvec3());
+        (b - a).cross(c - a) != DVec3::ZERO
+    };
+    match indices.iter().any(has_area) {
+        true => Ok(()),
+        false => Err(GeometryError::NoTriangleWithArea { count: indices.len() }),
+    }
+}
 
-    /// Texture coordinates at a point of a triangle, if the mesh has some.
-    fn uv(&self, near: DVec3, triangle: u32) -> Option<Vec2> {
-        let corners = self.triangles.indices.get(triangle as usize)?;
-        let weights = self.spot(near, triangle, 0.0).weights;
-        let [a, b, c] = corners.map(|corner| self.triangles.uvs.get(corner as usize).copied());
-        let [a, b, c] = [a?, b?, c?].map(|uv| uv.as_dvec2());
-        Some((a * weights[0] + b * weights[1] + c * weights[2]).as_vec2())
-    }
+fn plant(triangles: &Triangles) -> (Tree, Groups) {
+    let bounds = |triangle: usize| Bounds::of(corners(triangles, triangle as u32));
+    Tree::grouped(triangles.indices.len(), WIDTH as u32, bounds)
+}
+
+fn corners(triangles: &Triangles, triangle: u32) -> [Vec3; 3] {
+    triangles.indices[triangle as usize].map(|index| triangles.positions[index as usize])
 }
 
 fn turn_round(triangles: &mut Triangles) {

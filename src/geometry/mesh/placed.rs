@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::{Affine3A, DVec3, Vec2, Vec3};
 
-use super::Mesh;
 use super::query::{NONE, Query};
+use super::{Mesh, Spot};
 use crate::geometry::ray::{Crossing, Probe, Surface};
 use crate::geometry::shape::Leaving;
 use crate::geometry::{Bounds, GeometryError, Side, check};
@@ -102,19 +102,23 @@ impl Placed {
         self.mesh.triangles_near(&near).any(|triangle| test(&self.corners(triangle)))
     }
 
+    #[inline]
     fn to_world(&self, p: DVec3) -> DVec3 {
         self.frame.as_ref().map_or(p, |frame| frame.to_world.point(p))
     }
 
+    #[inline]
     fn to_mesh(&self, p: Vec3) -> DVec3 {
         self.frame.as_ref().map_or(p.as_dvec3(), |frame| frame.to_mesh.point(p.as_dvec3()))
     }
 
+    #[inline]
     fn direction(&self, d: Vec3) -> DVec3 {
         self.frame.as_ref().map_or(d.as_dvec3(), |frame| frame.to_mesh.vector(d.as_dvec3()))
     }
 
     /// Outwards, of unit length.
+    #[inline]
     fn normal(&self, n: DVec3) -> Vec3 {
         let n = match &self.frame {
             None => n,
@@ -169,7 +173,7 @@ impl Placed {
     /// What a ray meets of the mesh that it leaves.
     #[inline]
     pub(in crate::geometry) fn again(&self, ray: &Leaving, limit: f32) -> Option<Crossing> {
-        self.mesh.closest(&self.leaving(ray, None), limit)
+        self.mesh.closest_bounded(&self.leaving(ray, None), limit)
     }
 
     /// Whether the mesh that a ray leaves, but for one triangle, surely is in its own way.
@@ -187,13 +191,22 @@ impl Placed {
         self.meet(&probe, f32::INFINITY).is_some_and(|crossing| crossing.side == Side::Inside)
     }
 
-    pub(in crate::geometry) fn surface(&self, near: Vec3, triangle: u32) -> Surface {
-        let spot = self.mesh.spot(self.to_mesh(near), triangle, 0.0);
-        Surface {
-            point: self.to_world(spot.point).as_vec3(),
-            normal: self.normal(spot.normal),
-            shading: self.normal(self.mesh.smooth_normal(&spot, triangle)),
-        }
+    #[inline]
+    pub(in crate::geometry) fn surface(&self, near: Vec3, crossing: &Crossing) -> Surface {
+        self.surface_of(near, crossing.facet, self.mesh.corners_at(crossing.place))
+    }
+
+    /// The same for a triangle by its number.
+    pub(in crate::geometry) fn surface_at(&self, near: Vec3, triangle: u32) -> Surface {
+        self.surface_of(near, triangle, self.mesh.corners(triangle))
+    }
+
+    #[inline]
+    fn surface_of(&self, near: Vec3, triangle: u32, corners: [DVec3; 3]) -> Surface {
+        let spot = Spot::nearest(self.to_mesh(near), corners);
+        let (point, normal) = (self.to_world(spot.point).as_vec3(), self.normal(spot.normal));
+        let shading = self.mesh.smooth_normal(&spot, triangle).map_or(normal, |smooth| self.normal(smooth));
+        Surface { point, normal, shading }
     }
 
     pub(in crate::geometry) fn uv(&self, point: Vec3, triangle: u32) -> Option<Vec2> {

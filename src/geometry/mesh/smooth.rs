@@ -4,39 +4,37 @@
 //! than the crease angle, weighted by their angles at the corner (G. Thürmer, C. A. Wüthrich, "Computing Vertex Normals
 //! from Polygonal Facets", J. Graphics Tools 3(1), 1998), so that how a face is cut into triangles does not matter.
 
-use std::collections::HashMap;
-
-use glam::DVec3;
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
 
 use super::closed::weld;
 use crate::geometry::Triangles;
 
 impl Triangles {
     /// The same surface with normals that are smooth across edges which bend by less than an angle in degrees; without
-    /// normals at 0. Corners are parted where normals differ.
+    /// normals at 0. Corners are parted where normals differ. A mesh that names corners it does not have stays as it is.
     pub fn smoothed(self, crease_degrees: f64) -> Self {
         if crease_degrees <= 0.0 {
             return Self { normals: Vec::new(), ..self };
         }
-        let least_cosine = libm::cos(crease_degrees.to_radians());
-        let welded = weld(&self.positions);
-        let faces: Vec<DVec3> = self.indices.iter().map(|triangle| self.face_normal(triangle)).collect();
-        let mut around: Vec<Vec<(u32, f64)>> = vec![Vec::new(); self.positions.len()];
-        for (face, triangle) in (0..).zip(&self.indices) {
-            for corner in 0..3 {
-                around[welded[triangle[corner] as usize] as usize].push((face, self.angle(triangle, corner)));
-            }
+        if self.indices.iter().flatten().any(|&index| index as usize >= self.positions.len()) {
+            return self;
         }
-        let mut parted = Parted { of: &self, known: HashMap::new(), made: Self::default() };
-        for (face, triangle) in faces.iter().zip(&self.indices) {
-            let corner = |&index: &u32| {
-                let near = around[welded[index as usize] as usize].iter();
-                let smooth = near.filter(|(other, _)| faces[*other as usize].dot(*face) > least_cosine);
-                let sum: DVec3 = smooth.map(|&(other, angle)| faces[other as usize] * angle).sum();
-                (index, sum.try_normalize().unwrap_or(*face))
-            };
-            let corners = [corner(&triangle[0]), corner(&triangle[1]), corner(&triangle[2])];
-            let indices = corners.map(|(index, normal)| parted.corner(index, normal));
+        let least_cosine = libm::cos(crease_degrees.to_radians());
+        let faces: Vec<DVec3> = self.indices.par_iter().map(|triangle| self.face_normal(triangle)).collect();
+        let around = Around::of(&self);
+        let normal = |face: usize, index: u32| {
+            let near = around.faces(index).iter();
+            let smooth = near.filter(|(other, _)| faces[*other as usize].dot(faces[face]) > least_cosine);
+            let sum: DVec3 = smooth.map(|&(other, angle)| faces[other as usize] * angle).sum();
+            sum.try_normalize().unwrap_or(faces[face]).as_vec3()
+        };
+        let normals: Vec<[Vec3; 3]> = (self.indices.par_iter().enumerate())
+            .map(|(face, triangle)| triangle.map(|index| normal(face, index)))
+            .collect();
+        let mut parted = Parted::new(&self);
+        for (triangle, normals) in self.indices.iter().zip(normals) {
+            let indices = [0, 1, 2].map(|corner| parted.corner(triangle[corner], normals[corner]));
             parted.made.indices.push(indices);
         }
         parted.made
@@ -54,22 +52,77 @@ impl Triangles {
     }
 }
 
+/// The triangles around each corner with their angles there, those of a corner side by side.
+struct Around {
+    welded: Vec<u32>,
+    faces: Vec<(u32, f64)>,
+    /// Where those of each corner begin in `faces`, and where the last ones end.
+    firsts: Vec<u32>,
+}
+
+impl Around {
+    fn of(mesh: &Triangles) -> Self {
+        let welded = weld(&mesh.positions);
+        let mut firsts = vec![0; mesh.positions.len() + 1];
+        for &index in mesh.indices.iter().flatten() {
+            firsts[welded[index as usize] as usize] += 1;
+        }
+        let mut sum = 0;
+        for first in &mut firsts {
+            sum += *first;
+            *first = sum;
+        }
+        let mut faces = vec![(0, 0.0); sum as usize];
+        // From the back, so that those of a corner end up in the order of their numbers.
+        for (face, triangle) in mesh.indices.iter().enumerate().rev() {
+            for corner in (0..3).rev() {
+                let place = &mut firsts[welded[triangle[corner] as usize] as usize];
+                *place -= 1;
+                faces[*place as usize] = (face as u32, mesh.angle(triangle, corner));
+            }
+        }
+        Self { welded, faces, firsts }
+    }
+
+    fn faces(&self, index: u32) -> &[(u32, f64)] {
+        let corner = self.welded[index as usize] as usize;
+        &self.faces[self.firsts[corner] as usize..self.firsts[corner + 1] as usize]
+    }
+}
+
 /// A mesh whose corners are made anew where they have more than one normal.
 struct Parted<'a> {
     of: &'a Triangles,
-    known: HashMap<(u32, [u32; 3]), u32>,
+    /// For each corner of the old mesh, the last one made of it; for each new one, the one made before of the same.
+    last: Vec<u32>,
+    before: Vec<u32>,
     made: Triangles,
 }
 
-impl Parted<'_> {
-    fn corner(&mut self, index: u32, normal: DVec3) -> u32 {
-        let normal = normal.as_vec3();
+/// No corner.
+const NONE: u32 = u32::MAX;
+
+impl<'a> Parted<'a> {
+    fn new(of: &'a Triangles) -> Self {
+        Self { of, last: vec![NONE; of.positions.len()], before: Vec::new(), made: Triangles::default() }
+    }
+
+    fn corner(&mut self, index: u32, normal: Vec3) -> u32 {
         let (of, made) = (self.of, &mut self.made);
-        *self.known.entry((index, normal.to_array().map(f32::to_bits))).or_insert_with(|| {
-            made.positions.push(of.positions[index as usize]);
-            made.normals.push(normal);
-            made.uvs.extend(of.uvs.get(index as usize));
-            made.positions.len() as u32 - 1
-        })
+        let index = index as usize;
+        let mut known = self.last[index];
+        while known != NONE {
+            if made.normals[known as usize].to_array().map(f32::to_bits) == normal.to_array().map(f32::to_bits) {
+                return known;
+            }
+            known = self.before[known as usize];
+        }
+        let new = made.positions.len() as u32;
+        made.positions.push(of.positions[index]);
+        made.normals.push(normal);
+        made.uvs.extend(of.uvs.get(index));
+        self.before.push(self.last[index]);
+        self.last[index] = new;
+        new
     }
 }
