@@ -278,6 +278,78 @@ fn impossible_meshes_are_errors() {
     );
 }
 
+#[test]
+fn corners_beyond_all_counts_are_errors_that_cost_nothing() {
+    let cube = meshes::of_convex(&Convex::cuboid(Vec3::ZERO, Vec3::ONE).unwrap());
+    for index in [8, 1 << 31, u32::MAX - 1, u32::MAX] {
+        let mut beyond = cube.clone();
+        beyond.indices[5][2] = index;
+        assert_eq!(Mesh::new(beyond).unwrap_err(), GeometryError::NoSuchCorner { index, count: 8 });
+    }
+}
+
+/// Many triangles on one point or one line: all of them alone are an error, among others they are in nobody's way, and no build hangs.
+#[test]
+fn meshes_without_area_are_errors_and_points_among_triangles_do_no_harm() {
+    let points: Vec<[u32; 3]> = vec![[0, 0, 0]; 200_000];
+    let lines: Vec<[u32; 3]> = (0..200_000).map(|i| [i % 7, (i + 1) % 7, (i + 3) % 7]).collect();
+    let positions: Vec<Vec3> = (0..7).map(|i| Vec3::splat(i as f32 - 3.0)).collect();
+    for indices in [points, lines] {
+        let flat = Triangles { positions: positions.clone(), indices: indices.clone(), ..Triangles::default() };
+        assert_eq!(Mesh::new(flat).unwrap_err(), GeometryError::NoTriangleWithArea { count: 200_000 });
+        let mut ball = meshes::icosphere(3);
+        let count = ball.indices.len() as u32;
+        let first = ball.positions.len() as u32;
+        ball.positions.extend(&positions);
+        ball.indices.extend(indices.iter().map(|triangle| triangle.map(|index| first + index)));
+        let world = world(Placed::new(Arc::new(Mesh::new(ball).unwrap())).into());
+        let mut random = Random(41);
+        for _ in 0..1000 {
+            let ray = Ray::free(random.direction() * 0.3, random.direction());
+            assert!(world.closest(&ray, f32::INFINITY).is_some_and(|hit| hit.facet < count));
+        }
+    }
+}
+
+/// Equal boxes give a builder nothing to choose by.
+#[test]
+fn a_crowd_of_equal_triangles_or_shapes_is_built_at_once() {
+    for size in [1.0, 1e-14] {
+        let positions = [Vec3::ZERO, Vec3::X, Vec3::Y].map(|p| p * size).to_vec();
+        let heap = Triangles { positions, indices: vec![[0, 1, 2]; 200_000], ..Triangles::default() };
+        let world = world(Placed::new(Arc::new(Mesh::new(heap).unwrap())).into());
+        let hit = world.closest(&Ray::free(Vec3::new(0.25, 0.25, 1.0) * size, -Vec3::Z), f32::INFINITY).unwrap();
+        assert_eq!((hit.facet, hit.t), (0, size));
+    }
+    let balls = vec![Sphere::new(Vec3::ZERO, 1.0).unwrap().into(); 100_000];
+    let hit = World::new(balls).unwrap().closest(&Ray::free(Vec3::Z * 3.0, -Vec3::Z), f32::INFINITY).unwrap();
+    assert_eq!((hit.shape, hit.t), (ShapeId(0), 2.0));
+}
+
+/// Whatever a ray is, it ends.
+#[test]
+fn rays_that_are_no_numbers_end() {
+    let world = world(Placed::new(Arc::new(Mesh::new(meshes::blob(4, 0.1)).unwrap())).into());
+    let balls = (0..20).map(|i| Sphere::new(Vec3::X * i as f32, 0.4).unwrap().into()).collect();
+    let many = World::new(balls).unwrap();
+    for value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 0.0] {
+        for world in [&world, &many] {
+            let _ = world.closest(&Ray::free(Vec3::ZERO, Vec3::splat(value)), f32::INFINITY);
+            let _ = world.closest(&Ray::free(Vec3::splat(value), Vec3::splat(value)), f32::INFINITY);
+            let _ = world.occluded(&Ray::free(Vec3::splat(value), Vec3::splat(value)), 1.0, None);
+        }
+        for axis in 0..3 {
+            let (mut origin, mut direction) = (Vec3::splat(0.1), Vec3::new(0.6, 0.0, 0.8));
+            direction[axis] = value;
+            let _ = world.closest(&Ray::free(origin, direction), f32::INFINITY);
+            let _ = world.occluded(&Ray::free(origin, direction), 1.0, None);
+            origin[axis] = value;
+            let _ = world.closest(&Ray::free(origin, Vec3::X), f32::INFINITY);
+            let _ = world.occluded(&Ray::free(origin, direction), value, None);
+        }
+    }
+}
+
 /// Triangles without area are never met, and do no harm to their neighbours.
 #[test]
 fn triangles_without_area_are_not_met() {

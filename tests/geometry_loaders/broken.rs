@@ -239,3 +239,28 @@ proptest! {
         }
     }
 }
+
+/// Triangles without area alone are an error that counts them; corners up to 2³¹ name what is missing.
+#[test]
+fn files_of_nothing_but_flat_triangles_and_corners_beyond_all_counts_are_errors() {
+    let ply = |face: &str| {
+        let head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+                    element face 1\nproperty list uchar uint vertex_indices\nend_header\n";
+        format!("{head}0 0 0\n1 0 0\n2 0 0\n{face}\n")
+    };
+    let stl = "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 2 0 0\nendloop\nendfacet\nendsolid s\n";
+    let flat =
+        [("obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n".to_owned()), ("ply", ply("3 0 1 2")), ("stl", stl.to_owned())];
+    for (extension, text) in flat {
+        let message = error(extension, &text);
+        assert!(message.contains("no face to show") && message.contains("1 triangle"), "{message}");
+    }
+    for index in ["2147483648", "4294967295"] {
+        let far =
+            [("obj", format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 {index}\n")), ("ply", ply(&format!("3 0 1 {index}")))];
+        for (extension, text) in far {
+            let message = error(extension, &text);
+            assert!(message.contains(index) && message.contains('3'), "{message}");
+        }
+    }
+}
