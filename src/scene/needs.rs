@@ -3,7 +3,7 @@
 use super::{Inside, Interface, MediumId, Object, Pattern, Scene, Surface};
 use crate::bsdf::conductor::MIRROR_ALPHA;
 use crate::fresnel::FresnelModel;
-use crate::light::Environment;
+use crate::light::{Environment, FEW};
 use crate::spectrum::Density;
 use serde::Serialize;
 
@@ -43,6 +43,7 @@ impl Needs {
             approximations(scene),
             textures(scene),
             light_sampling(scene),
+            light_tree(scene),
             environment(scene),
         ];
         Self {
@@ -216,6 +217,16 @@ fn light_sampling(scene: &Scene) -> Decision {
         }
         (1, false) => decision("light sampling", true, "one light shines on surfaces that scatter"),
         (count, false) => decision("light sampling", true, format!("{count} lights shine on surfaces that scatter")),
+    }
+}
+
+fn light_tree(scene: &Scene) -> Decision {
+    match scene.lights.in_tree() {
+        0 => decision("light tree", false, format!("at most {FEW} lights have a place: power alone chooses among them")),
+        count => {
+            let reason = format!("{count} lights, more than {FEW}: chosen by power, distance and direction");
+            decision("light tree", true, reason)
+        }
     }
 }
 
