@@ -176,7 +176,7 @@ impl Resolver<'_> {
 }
 
 /// The surface of the box around all shapes, through which the environment lights them.
-fn surface(bounds: &Bounds) -> f64 {
+pub(super) fn surface(bounds: &Bounds) -> f64 {
     let [x, y, z] = if bounds.is_empty() { [1.0; 3] } else { bounds.size().to_array().map(f64::from) };
     2.0 * (x * y + y * z + z * x)
 }
