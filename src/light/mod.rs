@@ -1,8 +1,9 @@
 //! Where light comes from: shapes that shine, suns, and the environment around everything.
 //!
-//! A shape, a sun or a picture of the surroundings is chosen mostly by its power; the first two are sampled over the solid angle they cover, a
-//! picture by its luminance ([`Map`]). Surroundings that are constant or a gradient are smooth, so paths find them best by following the
-//! surface they leave; they are never sampled by themselves.
+//! Shapes, points, suns and pictures of the surroundings are aimed at: which one, `choice` says, by power and, where there are more than
+//! a few lamps, by a `tree` of them. Shapes and suns are sampled over the solid angle they cover, a picture by its luminance ([`Map`]).
+//! Surroundings that are constant or a gradient are smooth, so paths find them best by following the surface they leave; they are never
+//! sampled by themselves.
 
 mod choice;
 mod distribution;
@@ -19,9 +20,9 @@ pub use point::{Cone, Point};
 pub use sun::Sun;
 pub use tree::Receiver;
 
-use choice::Choice;
 use crate::geometry::{Hit, ShapeId, Side, Target, World};
 use crate::spectrum::{Lanes, SpectrumId, Tables, Tint};
+use choice::Choice;
 use glam::Vec3;
 
 /// What an emitter is.

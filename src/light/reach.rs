@@ -103,8 +103,8 @@ impl Reach {
     pub fn cost(&self) -> f64 {
         let (o, w) = (self.spread, (self.spread + self.beyond).min(PI));
         let (sin, cos) = libm::sincos(o);
-        let angles = 2.0 * PI * (1.0 - cos)
-            + FRAC_PI_2 * (2.0 * w * sin - libm::cos(o - 2.0 * w) - 2.0 * o * sin + cos);
+        let angles =
+            2.0 * PI * (1.0 - cos) + FRAC_PI_2 * (2.0 * w * sin - libm::cos(o - 2.0 * w) - 2.0 * o * sin + cos);
         self.intensity * angles * self.square()
     }
 }

@@ -1,7 +1,7 @@
 //! All light of a scene as one spectrum, and the wavelengths that see it best.
 
-use super::{Decision, Scene};
 use super::resolve::surface;
+use super::{Decision, Scene};
 use crate::light::Environment;
 use crate::spectrum::{Density, Nodes, Spectrum, SpectrumId, luminance};
 

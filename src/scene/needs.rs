@@ -198,7 +198,9 @@ fn light_sampling(scene: &Scene) -> Decision {
 
 fn light_tree(scene: &Scene) -> Decision {
     match scene.lights.in_tree() {
-        0 => decision("light tree", false, format!("at most {FEW} lights have a place: power alone chooses among them")),
+        0 => {
+            decision("light tree", false, format!("at most {FEW} lights have a place: power alone chooses among them"))
+        }
         count => {
             let reason = format!("{count} lights, more than {FEW}: chosen by power, distance and direction");
             decision("light tree", true, reason)

@@ -17,11 +17,11 @@
 //! with five mercury lines, 4–10 under LED-B3…5; it would be 1.2 and 2.4 under LED-B1 and B2, 0.3–1 under A, D65 and E. D = 1/4 would
 //! gain up to 1.7 times as much under FL1…FL12 and lose 1.4–3 under LED-B3…5.
 
-
 use super::{ColorMatching, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Line, Spectrum, tristimulus};
 
-/// Half the width that an emission line is given, nm. XYZ of FL2 with five mercury lines is then within 1e-6, of a laser within 3.2e-5; wider would
-/// shift colours in proportion, because x̄, ȳ, z̄ bend at every nm and a line on a bend is wrong by half its width times it.
+/// Half the width that an emission line is given, nm. XYZ of FL2 with five mercury lines is then within 1e-6, of a laser on 532 nm,
+/// where x̄, ȳ and z̄ bend, within 3.2e-5; wider would shift colours in proportion, because they bend at every nm and a line on a
+/// bend is wrong by half its width times it.
 pub(super) const LINE_HALF_WIDTH_NM: f64 = 0.05;
 
 /// The part of all wavelengths that one line gets (so that each set of eight holds it once), and that all get at most.
@@ -247,7 +247,6 @@ fn tanh(nm: f64) -> f64 {
     libm::tanh(STEEPNESS * (nm - CENTRE_NM))
 }
 
-
 /// For equal lines.
 #[cfg(test)]
 pub(super) fn of_lines(nm: &[f64]) -> Density {
@@ -290,7 +289,13 @@ mod tests {
         let many = Spectrum::Lines((0..80).map(|i| Line { nm: 400.0 + 3.0 * f64::from(i), power: 1.0 }).collect());
         let weak = Spectrum::Lines((0..80).map(|i| Line { nm: 400.0 + 3.0 * f64::from(i), power: 1e-3 }).collect());
         let few = Spectrum::Lines([450.0, 546.0, 611.0].map(|nm| Line { nm, power: 500.0 }).to_vec());
-        let lights = [lamp("FL11"), many, few.clone(), Spectrum::Sum(vec![lamp("FL2"), weak]), Spectrum::Sum(vec![lamp("A"), few])];
+        let lights = [
+            lamp("FL11"),
+            many,
+            few.clone(),
+            Spectrum::Sum(vec![lamp("FL2"), weak]),
+            Spectrum::Sum(vec![lamp("A"), few]),
+        ];
         for light in lights {
             let density = Density::following(&light, &test_observer());
             let least = if light.lines().is_empty() { 0.5 } else { 0.125 };

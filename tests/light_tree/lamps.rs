@@ -66,8 +66,8 @@ pub fn room(seed: u64, kind: Kind, count: usize, far: bool) -> Scene {
         let (shape, two_sided) = lamp(&mut random, kind, index);
         let luminance = if kind == Kind::Mixed { 10f64.powf(4.0 * f64::from(random.unit())) } else { 1.0 };
         let Some(shape) = shape else {
-            let cone = (index % 12 < 6)
-                .then(|| Cone::new(direction(&mut random).as_dvec3(), 0.4, 0.7).expect("a cone"));
+            let cone =
+                (index % 12 < 6).then(|| Cone::new(direction(&mut random).as_dvec3(), 0.4, 0.7).expect("a cone"));
             let light = Point::new(vector(&mut random, [-5.0, -5.0, 0.5], [5.0, 5.0, 3.0]), 1.0, cone);
             let power = 0.01 * luminance * light.solid_angle() / std::f64::consts::PI;
             emitters.push(Emitter { source: Source::Point(light), radiance, power });

@@ -47,12 +47,8 @@ fn sampled_irradiance_is_that_of_all_lamps() {
             let tilted = (Vec3::Z + 0.8 * direction(&mut random)).normalize();
             let normal = if kind == Kind::Ceiling && random.unit() < 0.5 { tilted } else { Vec3::Z };
             let receiver = Receiver { point, normal: Some(normal) };
-            let expected: f64 = lamps
-                .world
-                .shapes()
-                .iter()
-                .map(|shape| irradiance(shape, point.as_dvec3(), normal.as_dvec3()))
-                .sum();
+            let expected: f64 =
+                lamps.world.shapes().iter().map(|shape| irradiance(shape, point.as_dvec3(), normal.as_dvec3())).sum();
             let mut one = || {
                 let light = lamps.lights.sample(&lamps.world, &receiver, random.unit(), random.point());
                 light.map_or(0.0, |light| f64::from(normal.dot(light.direction).max(0.0) / light.pdf))
@@ -106,7 +102,9 @@ fn lamps(count: usize, lit: Range<usize>) -> String {
             0 => format!("sphere = {{ center = [{x}, {y}, {z}], radius = {} }}", 0.5 * size),
             1 => format!("disk = {{ center = [{x}, {y}, {z}], radius = {size}, normal = [{nx}, {ny}, {nz}] }}"),
             2 => format!("box = {{ center = [{x}, {y}, {z}], size = [{size}, {size}, {size}] }}"),
-            _ => format!("rectangle = {{ center = [{x}, {y}, {z}], size = [{size}, 0.3], normal = [{nx}, {ny}, {nz}] }}"),
+            _ => {
+                format!("rectangle = {{ center = [{x}, {y}, {z}], size = [{size}, 0.3], normal = [{nx}, {ny}, {nz}] }}")
+            }
         };
         let luminance = if lit.contains(&index) { luminance } else { 0.0 };
         let spectrum = ["{ blackbody = 2000 }", "\"D65\"", "{ daylight = 9000 }"][index % 3];
@@ -125,7 +123,9 @@ fn two_hundred_lamps_are_a_hundred_times_two() {
     let mut all = scene(&lit(0..COUNT), &Overrides { samples: Some(512), ..Overrides::default() });
     assert_eq!(all.lights.in_tree(), 200);
     let said = Needs::of(&all).decisions;
-    assert!(said.iter().any(|decision| decision.part == "light tree" && decision.used && decision.reason.contains("200")));
+    assert!(
+        said.iter().any(|decision| decision.part == "light tree" && decision.used && decision.reason.contains("200"))
+    );
     let tree: Vec<_> = renders(&mut all, 0..SEEDS).iter().map(|film| cells(film, GRID)).collect();
     let mut sums = vec![vec![[0.0; 3]; 2]; SEEDS as usize];
     for first in (0..COUNT).step_by(FEW) {
