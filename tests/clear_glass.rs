@@ -172,6 +172,27 @@ fn solids_with_faces_in_common_are_invisible() {
 }
 
 /// From within, along one line of sight.
+/// Roulette looks at the path's throughput, in which n² must not be: a path that enters glass would be let go by chance, though it
+/// carries as much light as before. With 256 samples a pixel has each set of wavelengths once, so that, where nothing is absorbed
+/// and no path is let go, every pixel is white whatever its paths were.
+#[test]
+fn no_path_is_let_go_in_clear_glass() {
+    let dense = "materials.dense.dielectric = { ior = 2.4, absorption = 0 }\n";
+    let shapes = [("ball", "shape.sphere = { radius = 1 }"), ("box", "shape.box = { size = [1.5, 1.3, 1] }")];
+    for (name, shape) in shapes {
+        let object = format!("{dense}[[objects]]\nmaterial = \"dense\"\n{shape}\n");
+        let outside = furnace(CAMERA, 2.4, &format!("{object}transform.rotate = [10, 20, 30]\n"));
+        let within = furnace(DVec3::new(0.0, 0.0, 0.3), 1e-3, &object);
+        for (place, text, white) in [("outside", outside, 100.0), ("within", within, 2.4 * 2.4 * 100.0)] {
+            let found = film(&scene(&text, &with(8, 256)));
+            let off = |y: f64| (y / white - 1.0).abs();
+            let worst = found.pixels().iter().map(|pixel| off(pixel.mean()[1])).fold(0.0, f64::max);
+            println!("{name} from {place}: {worst:.1e}");
+            assert!(worst < 2e-5, "{name} from {place}: {worst:e}");
+        }
+    }
+}
+
 #[test]
 fn a_furnace_is_n_squared_brighter_from_within_glass() {
     let folder = tempfile::tempdir().expect("a folder");

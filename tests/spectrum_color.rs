@@ -150,9 +150,90 @@ fn nodes_are_a_quadrature() {
     let mercury = [404.656, 435.833, 546.074, 576.96, 579.066];
     let lines = mercury.map(|nm| Line { nm, power: 100.0 });
     let lamp = Spectrum::Sum(vec![light(&library, "FL2"), Spectrum::Lines(lines.to_vec())]);
-    let error = node_error(&Nodes::new(&Density::with_lines(mercury)), &lamp, &observer);
+    let error = node_error(&Nodes::new(&Density::following(&lamp, &observer)), &lamp, &observer);
     eprintln!("FL2 with mercury lines: {error:.1e}");
     assert!(error < 2e-5, "{error:e}");
+}
+
+/// Reflectances of all kinds: flat, steep, narrow.
+fn reflectances() -> Vec<(&'static str, Spectrum)> {
+    let of = |f: &dyn Fn(f64) -> f64| {
+        let points: Vec<_> = (360..=830).map(|nm| (f64::from(nm), f(f64::from(nm)))).collect();
+        Spectrum::Table(Table::from_points(&points, Outside::Hold))
+    };
+    let edge = |nm: f64, width: f64| 1.0 / (1.0 + ((nm) / width).exp());
+    let bump = |x: f64| (-x * x).exp();
+    vec![
+        ("white", of(&|_| 1.0)),
+        ("red", of(&|nm| 0.05 + 0.9 * edge(600.0 - nm, 12.0))),
+        ("green", of(&|nm| 0.05 + 0.9 * bump((nm - 530.0) / 35.0))),
+        ("blue", of(&|nm| 0.05 + 0.8 * edge(nm - 480.0, 12.0))),
+        ("gold", of(&|nm| 0.35 + 0.6 * edge(510.0 - nm, 20.0))),
+        ("a notch", of(&|nm| 1.0 - 0.9 * bump((nm - 560.0) / 15.0))),
+        ("a narrow band", of(&|nm| 0.02 + bump((nm - 640.0) / 8.0))),
+    ]
+}
+
+/// Mean square over sets of eight of what one tells of a reflectance under a light, less the truth, over the white's square; and the
+/// largest error of the mean over all sets.
+fn told(nodes: &Nodes, light: &Spectrum, reflectance: &Spectrum, observer: &ColorMatching) -> (f64, f64) {
+    let sets = NODE_COUNT / 8;
+    let weights = nodes.observer_weights(observer);
+    let (lights, reflectances) = (nodes.values(light), nodes.values(reflectance));
+    let white = tristimulus(&[light], observer);
+    let whole: f64 = white.iter().map(|c| c * c).sum();
+    let exact = tristimulus(&[light, reflectance], observer);
+    let mut square = 0.0;
+    let mut mean = [0.0; 3];
+    for set in 0..sets {
+        let lanes = (0..8).map(|lane| set + lane * sets);
+        for c in 0..3 {
+            let sum: f64 = lanes.clone().map(|i| lights[i] * reflectances[i] * weights[i][c]).sum();
+            square += (sets as f64 * sum - exact[c]).powi(2) / sets as f64;
+            mean[c] += sum;
+        }
+    }
+    let off = (0..3).map(|c| (mean[c] - exact[c]).abs() / whole.sqrt()).fold(0.0, f64::max);
+    (square / whole, off)
+}
+
+#[test]
+fn wavelengths_that_follow_lights_with_lines_tell_more_of_colours() {
+    let library = library();
+    let observer = observer(&library);
+    let lines = |nm: &[f64]| Spectrum::Lines(nm.iter().map(|&nm| Line { nm, power: 100.0 }).collect());
+    let mercury = [404.656, 435.833, 546.074, 576.96, 579.066];
+    let mut lights: Vec<(String, Spectrum)> = library
+        .names(spectrel::spectrum::Quantity::Illuminant)
+        .into_iter()
+        .map(|name| (name.clone(), light(&library, &name)))
+        .collect();
+    for lamp in ["FL2", "FL11"] {
+        lights.push((format!("{lamp}, mercury"), Spectrum::Sum(vec![light(&library, lamp), lines(&mercury)])));
+    }
+    lights.push(("mercury".into(), lines(&mercury)));
+    lights.push(("laser".into(), lines(&[532.0])));
+    lights.push(("blackbody".into(), Spectrum::Blackbody { kelvin: 1500.0 }));
+    let visible = Nodes::new(&Density::visible());
+    for (name, light) in &lights {
+        let following = Nodes::new(&Density::following(light, &observer));
+        let (white, off) = (visible.variance(light, &observer), node_error(&following, light, &observer));
+        let mut gains = Vec::new();
+        for (color, reflectance) in reflectances() {
+            let [before, after] = [&visible, &following].map(|nodes| told(nodes, light, &reflectance, &observer));
+            gains.push((before.0 / after.0).ln());
+            let most = if name == "laser" { 5e-5 } else { 3e-6 };
+            assert!(after.1 < most, "{color} under {name}: {:e} off in the mean", after.1);
+        }
+        let gain = (gains.iter().sum::<f64>() / gains.len() as f64).exp();
+        let after = following.variance(light, &observer);
+        println!("{name:>15}: white {white:.4}, then {after:.4}; gain {gain:.1}; off {off:.1e}");
+        assert!(off < if name == "laser" { 4e-5 } else { 5e-6 }, "{name}: {off:e}");
+        // What `scene::lighting` takes for smooth stays below a hundredth, and would gain little.
+        let smooth = ["a", "d50", "d55", "d65", "d75", "e", "led-b1", "led-b2", "blackbody"].contains(&name.as_str());
+        assert_eq!(white < 0.01, smooth, "{name}: {white}");
+        assert!(if smooth { gain < 3.0 } else { gain > 3.5 && after < 0.05 }, "{name}: {gain}");
+    }
 }
 
 #[test]
@@ -172,7 +253,10 @@ fn sets_estimate_the_luminance_in_candela() {
 
 #[test]
 fn wavelengths_follow_the_density() {
-    let density = Density::with_lines([546.074, 589.3]);
+    let library = library();
+    let lines = [546.074, 589.3].map(|nm| Line { nm, power: 1.0 });
+    let lamp = Spectrum::Sum(vec![light(&library, "FL11"), Spectrum::Lines(lines.to_vec())]);
+    let density = Density::following(&lamp, &observer(&library));
     let nodes = Nodes::new(&density);
     // Sets drawn uniformly show each node equally often; bin the nodes and compare with the density: χ² per bin.
     let bins = 47;

@@ -1,21 +1,28 @@
 //! Where light comes from: shapes that shine, suns, and the environment around everything.
 //!
-//! A shape, a sun or a picture of the surroundings is chosen mostly by its power; the first two are sampled over the solid angle they cover, a
-//! picture by its luminance ([`Map`]). Surroundings that are constant or a gradient are smooth, so paths find them best by following the
-//! surface they leave; they are never sampled by themselves.
+//! Shapes, points, suns and pictures of the surroundings are aimed at: which one, `choice` says, by power and, where there are more than
+//! a few lamps, by a `tree` of them. Shapes and suns are sampled over the solid angle they cover, a picture by its luminance ([`Map`]).
+//! Surroundings that are constant or a gradient are smooth, so paths find them best by following the surface they leave; they are never
+//! sampled by themselves.
 
+mod choice;
 mod distribution;
 mod grid;
 mod map;
 mod point;
+mod reach;
 mod sun;
+mod tree;
 
+pub use choice::FEW;
 pub use map::{Look, Map, mean_over_sphere};
 pub use point::{Cone, Point};
 pub use sun::Sun;
+pub use tree::Receiver;
 
 use crate::geometry::{Hit, ShapeId, Side, Target, World};
 use crate::spectrum::{Lanes, SpectrumId, Tables, Tint};
+use choice::Choice;
 use glam::Vec3;
 
 /// What an emitter is.
@@ -85,8 +92,7 @@ pub enum Environment {
 #[derive(Clone, Debug, Default)]
 pub struct Lights {
     emitters: Vec<Emitter>,
-    /// Share of the total power up to and with each emitter.
-    cumulative: Vec<f32>,
+    choice: Choice,
     /// The emitter of each shape.
     of_shape: Vec<Option<u32>>,
     /// So many emitters at the end are suns.
@@ -115,37 +121,46 @@ pub struct LightSample {
 
 impl Lights {
     /// Emitters without power are never chosen; they have nothing to give.
-    pub fn new(mut emitters: Vec<Emitter>, environment: Environment, shapes: usize) -> Self {
-        emitters.sort_by_key(|emitter| matches!(emitter.source, Source::Sun(_)));
+    pub fn new(mut emitters: Vec<Emitter>, environment: Environment, world: &World) -> Self {
+        let choice = Choice::new(&mut emitters, world);
         let suns = emitters.iter().filter(|emitter| matches!(emitter.source, Source::Sun(_))).count();
-        let cumulative = shares(&emitters);
-        let mut of_shape = vec![None; shapes];
+        let mut of_shape = vec![None; world.shapes().len()];
         for (index, emitter) in emitters.iter().enumerate() {
             if let Source::Shape { id, .. } = emitter.source {
                 of_shape[id.0 as usize] = Some(index as u32);
             }
         }
         let map = emitters.iter().position(|emitter| emitter.source == Source::Map);
-        let mut lights = Self { emitters, cumulative, of_shape, suns, map: 0.0, environment };
-        lights.map = map.map_or(0.0, |index| lights.probability(index));
-        lights
+        let map = map.map_or(0.0, |index| choice.fixed(index));
+        Self { emitters, choice, of_shape, suns, map, environment }
     }
 
     pub fn emitters(&self) -> &[Emitter] {
         &self.emitters
     }
 
-    fn probability(&self, index: usize) -> f32 {
-        let before = if index == 0 { 0.0 } else { self.cumulative[index - 1] };
-        self.cumulative[index] - before
+    /// How many lights are chosen by a tree; 0 if there is none.
+    pub fn in_tree(&self) -> usize {
+        self.choice.in_tree()
     }
 
-    /// A point on one of the lights that shines towards `from`; `None` where the chosen light shows its dark side.
+    /// The emitter that [`Self::sample`] asks for a number in [0, 1), and the probability of that.
     #[inline]
-    pub fn sample(&self, world: &World, from: Vec3, choice: f32, u: [f32; 2]) -> Option<LightSample> {
-        let index = self.cumulative.partition_point(|&share| share <= choice);
-        let Emitter { source, radiance, .. } = *self.emitters.get(index)?;
-        let probability = self.probability(index);
+    pub fn choose(&self, receiver: &Receiver, choice: f32) -> Option<(usize, f32)> {
+        self.choice.sample(receiver, choice)
+    }
+
+    /// The probability with which [`Self::sample`] asks an emitter.
+    pub fn probability(&self, receiver: &Receiver, index: usize) -> f32 {
+        self.choice.probability(receiver, index)
+    }
+
+    /// A point on one of the lights that shines towards the receiver; `None` where the chosen light shows its dark side.
+    #[inline]
+    pub fn sample(&self, world: &World, receiver: &Receiver, choice: f32, u: [f32; 2]) -> Option<LightSample> {
+        let (index, probability) = self.choose(receiver, choice)?;
+        let Emitter { source, radiance, .. } = self.emitters[index];
+        let from = receiver.point;
         match source {
             Source::Sun(sun) => Some(LightSample {
                 direction: sun.sample(u),
@@ -223,41 +238,16 @@ impl Lights {
     pub fn suns(&self, direction: Vec3) -> impl Iterator<Item = (SpectrumId, f32)> {
         let first = self.emitters.len() - self.suns;
         self.emitters[first..].iter().zip(first..).filter_map(move |(emitter, index)| match emitter.source {
-            Source::Sun(sun) if sun.meets(direction) => Some((emitter.radiance, sun.pdf() * self.probability(index))),
+            Source::Sun(sun) if sun.meets(direction) => Some((emitter.radiance, sun.pdf() * self.choice.fixed(index))),
             _ => None,
         })
     }
 
-    /// The density with which [`Self::sample`] gives the direction from `from` to a hit on a light, per steradian.
+    /// The density with which [`Self::sample`] gives the direction from a receiver to a hit on a light, per steradian.
     #[inline]
-    pub fn pdf(&self, world: &World, from: Vec3, direction: Vec3, hit: &Hit) -> f32 {
+    pub fn pdf(&self, world: &World, receiver: &Receiver, direction: Vec3, hit: &Hit) -> f32 {
         let Some(index) = self.of_shape[hit.shape.0 as usize] else { return 0.0 };
         let Some(shape) = world.shape(hit.shape) else { return 0.0 };
-        shape.pdf_toward(from, direction, hit) * self.probability(index as usize)
+        shape.pdf_toward(receiver.point, direction, hit) * self.choice.probability(receiver, index as usize)
     }
-}
-
-/// Of all choices, this part goes to the emitters in equal shares: power says nothing about distance or what stands between,
-/// and a lamp that is chosen next to never leaves rare bright dots.
-const EQUAL_PART: f64 = 0.25;
-
-/// Steps of the numbers that choose, so that an emitter is chosen exactly as often as its density says.
-const STEPS: f64 = 16_777_216.0;
-
-/// Share of the choices up to and with each emitter, in whole [`STEPS`].
-fn shares(emitters: &[Emitter]) -> Vec<f32> {
-    let total: f64 = emitters.iter().map(|emitter| emitter.power).sum();
-    let shining = emitters.iter().filter(|emitter| emitter.power > 0.0).count() as f64;
-    let mut sum = 0.0;
-    let share = |emitter: &Emitter| match emitter.power > 0.0 {
-        true => EQUAL_PART / shining + (1.0 - EQUAL_PART) * emitter.power / total,
-        false => 0.0,
-    };
-    emitters
-        .iter()
-        .map(|emitter| {
-            sum += share(emitter);
-            (libm::round(sum * STEPS) / STEPS) as f32
-        })
-        .collect()
 }

@@ -45,6 +45,12 @@ impl Cone {
         std::f64::consts::TAU * (full + none) / 2.0
     }
 
+    /// Axis, and the angles from it up to which there is full light and any, radians.
+    fn angles(&self) -> (DVec3, f64, f64) {
+        let angle = |versine: f32| 2.0 * libm::asin(libm::sqrt((0.5 * f64::from(versine)).min(1.0)));
+        (self.axis.as_dvec3(), angle(self.full), angle(self.none))
+    }
+
     /// Share of the intensity in a direction away from the light.
     #[inline]
     fn share(&self, direction: Vec3) -> f32 {
@@ -61,6 +67,15 @@ impl Cone {
 impl Point {
     pub fn new(position: Vec3, meters_per_unit: f64, cone: Option<Cone>) -> Self {
         Self { position, square: (meters_per_unit * meters_per_unit) as f32, cone }
+    }
+
+    pub(super) fn position(&self) -> Vec3 {
+        self.position
+    }
+
+    /// Axis of its cone, and the angles from it up to which there is full light and any, radians.
+    pub(super) fn cone(&self) -> Option<(DVec3, f64, f64)> {
+        self.cone.map(|cone| cone.angles())
     }
 
     /// The solid angle that it lights, sr.

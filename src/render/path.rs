@@ -10,9 +10,11 @@ use super::scatter::power_heuristic;
 use super::{Kernel, rays};
 use crate::bsdf::Bsdf;
 use crate::geometry::{Hit, Ray};
+use crate::light::Receiver;
 use crate::sampler::Sampler;
 use crate::scene::{MediumId, Surface};
 use crate::spectrum::Lanes;
+use glam::Vec3;
 
 /// Paths survive with min(1, this × their largest throughput). Relaxed roulette: 1 costs less a path, but 2–4 had the least
 /// error for the time (2.3 × on metals).
@@ -34,13 +36,15 @@ pub struct Path<const N: usize> {
     /// Density per steradian with which the last surface chose the direction; infinite for a direction without choice, so
     /// that a light it meets counts in full.
     pub pdf: f32,
+    /// Normal of the last surface if it scatters to one side only: what its lights were chosen by.
+    pub normal: Option<Vec3>,
     /// Surface interactions so far.
     pub depth: u32,
 }
 
 impl<const N: usize> Path<N> {
     pub fn new(ray: Ray, offset: u32, media: MediaStack) -> Self {
-        Self { ray, throughput: Lanes::ONE, offset, media, pdf: f32::INFINITY, depth: 0 }
+        Self { ray, throughput: Lanes::ONE, offset, media, pdf: f32::INFINITY, normal: None, depth: 0 }
     }
 
     /// One lane, to go on alone.
@@ -51,6 +55,7 @@ impl<const N: usize> Path<N> {
             offset: self.offset + lane as u32,
             media: self.media,
             pdf: self.pdf,
+            normal: self.normal,
             depth: self.depth,
         }
     }
@@ -148,7 +153,8 @@ impl Kernel<'_> {
         if path.pdf == f32::INFINITY {
             return emitted;
         }
-        let light_pdf = lights.pdf(&self.scene.world, path.ray.origin, path.ray.direction, hit);
+        let receiver = Receiver { point: path.ray.origin, normal: path.normal };
+        let light_pdf = lights.pdf(&self.scene.world, &receiver, path.ray.direction, hit);
         emitted * power_heuristic(path.pdf, light_pdf)
     }
 

@@ -9,6 +9,7 @@ use super::path::{Outcome, Path};
 use super::scatter::weight;
 use crate::bsdf::{Frame, RoughDielectric};
 use crate::geometry::{Hit, Ray, Side};
+use crate::light::Receiver;
 use crate::sampler::Sampler;
 use crate::scene::{Interface, MediumId};
 use crate::spectrum::Lanes;
@@ -50,6 +51,7 @@ impl Kernel<'_> {
         let Some(sample) = bsdf.sample(wo, u, choice) else { return Outcome::Ended };
         path.throughput *= sample.weight;
         path.pdf = sample.pdf;
+        path.normal = None;
         let crosses = sample.wi.z < 0.0;
         let direction = frame.to_world(sample.wi);
         let (leaves, side) = rough.leaves(hit, crosses);
@@ -80,7 +82,8 @@ impl Kernel<'_> {
         sampler: &mut Sampler,
     ) -> Lanes<N> {
         let (choice, u) = (sampler.uniform(), sampler.uniform_2d());
-        let Some(light) = self.scene.lights.sample(&self.scene.world, hit.point, choice, u) else {
+        let receiver = Receiver { point: hit.point, normal: None };
+        let Some(light) = self.scene.lights.sample(&self.scene.world, &receiver, choice, u) else {
             return Lanes::ZERO;
         };
         let wi = frame.to_local(light.direction);

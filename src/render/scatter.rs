@@ -4,7 +4,7 @@ use super::path::{Outcome, Path};
 use super::{Kernel, rays};
 use crate::bsdf::{Bsdf, Frame};
 use crate::geometry::{Hit, Ray, Side};
-use crate::light::LightSample;
+use crate::light::{LightSample, Receiver};
 use crate::sampler::Sampler;
 use crate::scene::MediumId;
 use crate::spectrum::Lanes;
@@ -64,6 +64,7 @@ impl Kernel<'_> {
         let direction = frame.to_world(sample.wi);
         path.throughput *= sample.weight * terminator(bsdf, hit, frame.z, direction);
         path.pdf = if sample.delta { f32::INFINITY } else { sample.pdf };
+        path.normal = Some(hit.outward());
         path.ray = Ray::leaving(hit, hit.side, direction);
         Outcome::GoesOn
     }
@@ -80,8 +81,10 @@ impl Kernel<'_> {
         sampler: &mut Sampler,
     ) -> Lanes<N> {
         let (choice, u) = (sampler.uniform(), sampler.uniform_2d());
-        let world = &self.scene.world;
-        let Some(light) = self.scene.lights.sample(world, hit.point, choice, u) else { return Lanes::ZERO };
+        let receiver = Receiver { point: hit.point, normal: Some(hit.outward()) };
+        let Some(light) = self.scene.lights.sample(&self.scene.world, &receiver, choice, u) else {
+            return Lanes::ZERO;
+        };
         let wi = frame.to_local(light.direction);
         if wi.z <= 0.0 {
             return Lanes::ZERO;

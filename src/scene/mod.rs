@@ -3,6 +3,7 @@
 pub mod describe;
 mod error;
 mod forms;
+mod lighting;
 mod needs;
 mod numbers;
 mod optics;

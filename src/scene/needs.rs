@@ -1,9 +1,9 @@
 //! Which physics a scene uses, and why: what it does not need is neither loaded nor run.
 
-use super::{Inside, Interface, MediumId, Object, Pattern, Scene, Surface};
+use super::{Inside, Interface, MediumId, Object, Pattern, Scene, Surface, lighting};
 use crate::bsdf::conductor::MIRROR_ALPHA;
 use crate::fresnel::FresnelModel;
-use crate::light::Environment;
+use crate::light::{Environment, FEW};
 use crate::spectrum::Density;
 use serde::Serialize;
 
@@ -31,9 +31,9 @@ pub struct Decision {
 
 impl Needs {
     pub fn of(scene: &Scene) -> Self {
-        let lines: Vec<f64> = light_lines(scene);
+        let (wavelength_density, wavelengths) = lighting::wavelengths(scene);
         let decisions = vec![
-            wavelengths(&lines),
+            wavelengths,
             dispersion(scene),
             stones(scene),
             absorption(scene),
@@ -43,10 +43,11 @@ impl Needs {
             approximations(scene),
             textures(scene),
             light_sampling(scene),
+            light_tree(scene),
             environment(scene),
         ];
         Self {
-            wavelength_density: Density::with_lines(lines.iter().copied()),
+            wavelength_density,
             light_sampling: light_sampling(scene).used,
             pictures: pictures(scene),
             textures: !scene.patterns.is_empty(),
@@ -72,30 +73,6 @@ pub fn listed(names: &[&str]) -> String {
         [one] => (*one).into(),
         [a, b, c, _, rest @ ..] => format!("{a}, {b}, {c} and {} more", rest.len() + 1),
         [first @ .., last] => format!("{} and {last}", first.join(", ")),
-    }
-}
-
-fn light_lines(scene: &Scene) -> Vec<f64> {
-    let lights = scene.lights.emitters().iter().map(|emitter| emitter.radiance);
-    let environment = match scene.lights.environment {
-        // The light of a picture is among the emitters.
-        Environment::Dark | Environment::Map(_) => vec![],
-        Environment::Constant(id) => vec![id],
-        Environment::Gradient { nadir, horizon, zenith } => vec![nadir, horizon, zenith],
-    };
-    let mut lines: Vec<f64> =
-        lights.chain(environment).flat_map(|id| scene.spectra.get(id).lines()).map(|line| line.nm).collect();
-    lines.sort_by(f64::total_cmp);
-    lines.dedup();
-    lines
-}
-
-fn wavelengths(lines: &[f64]) -> Decision {
-    match lines.len() {
-        0 => decision("emission lines", false, "no light has any: wavelengths follow the visible density"),
-        count => {
-            decision("emission lines", true, format!("{count} in the lights: half of the wavelengths lie around them"))
-        }
     }
 }
 
@@ -216,6 +193,18 @@ fn light_sampling(scene: &Scene) -> Decision {
         }
         (1, false) => decision("light sampling", true, "one light shines on surfaces that scatter"),
         (count, false) => decision("light sampling", true, format!("{count} lights shine on surfaces that scatter")),
+    }
+}
+
+fn light_tree(scene: &Scene) -> Decision {
+    match scene.lights.in_tree() {
+        0 => {
+            decision("light tree", false, format!("at most {FEW} lights have a place: power alone chooses among them"))
+        }
+        count => {
+            let reason = format!("{count} lights, more than {FEW}: chosen by power, distance and direction");
+            decision("light tree", true, reason)
+        }
     }
 }
 

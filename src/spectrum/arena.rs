@@ -97,6 +97,7 @@ impl Tables {
 
 #[cfg(test)]
 mod tests {
+    use super::super::density::of_lines;
     use super::super::{Density, Line};
     use super::*;
 
@@ -127,7 +128,7 @@ mod tests {
 
     #[test]
     fn every_set_of_eight_sees_each_of_a_few_lines() {
-        let nodes = Nodes::new(&Density::with_lines([546.074, 589.3]));
+        let nodes = Nodes::new(&of_lines(&[546.074, 589.3]));
         let mut arena = Arena::default();
         let id = arena.add(Spectrum::Lines(vec![Line { nm: 546.074, power: 1.0 }]));
         let tables = arena.tabulate(&nodes, 8);

@@ -131,6 +131,7 @@ impl BinShares {
 #[cfg(test)]
 mod tests {
     use super::super::Density;
+    use super::super::density::of_lines;
     use super::*;
 
     #[test]
@@ -150,7 +151,7 @@ mod tests {
     /// What is flat is flat in every bin, for sets of one and of eight, with and without lines.
     #[test]
     fn shares_of_all_sets_sum_to_one_per_bin() {
-        for density in [Density::visible(), Density::with_lines([546.074, 589.3])] {
+        for density in [Density::visible(), of_lines(&[546.074, 589.3])] {
             let nodes = Nodes::new(&density);
             for (bins, lanes) in [("365:10:825", 8), ("360.5:1:829.5", 8), ("550:0.2:552", 1), ("380:5:780", 4)] {
                 let bins: Bins = bins.parse().unwrap();

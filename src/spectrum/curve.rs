@@ -56,6 +56,14 @@ impl Spectrum {
         }
     }
 
+    /// The spectrum but for a factor: of two lamps of one kind the same.
+    pub fn unscaled(&self) -> &Self {
+        match self {
+            Self::Scaled { of, .. } => of,
+            other => other,
+        }
+    }
+
     /// The absorption coefficient of an extinction coefficient: α = 4πk/λ, m⁻¹ and natural base; at every nanometre of the
     /// visible and at every breakpoint, linear between.
     pub fn absorption_from_k(&self) -> Self {

@@ -6,6 +6,18 @@
 use std::ops::{Add, AddAssign, Div, Index, IndexMut, Mul, MulAssign, Sub};
 
 /// Wavelengths a path carries unless asked otherwise.
+///
+/// Mean square error of XYZ (each over its mean) × instructions, at 16 samples a pixel, where 8 is 1:
+///
+/// | lanes | metals of the peers | scenes/metals | scenes/diamond | scenes/gold-in-water |
+/// |---|---|---|---|---|
+/// | 1 | 6.9 | 4.5 | 2.1 | 0.77 |
+/// | 4 | 1.22 | 1.14 | 0.95 | 0.59 |
+/// | 16 | 1.00 | 1.02 | 2.3 | 1.9 |
+///
+/// A lane more costs next to nothing until lanes part: 16 take 2 % more instructions than 8 on metals, and 2.4 times as many in a
+/// diamond, whose eight directions fill a register. In water, where every path parts into as many as it has lanes, fewer are better; what
+/// 4 leave then is noise of colour, 1.3–1.6 times as much in Z as 8.
 pub const LANES: usize = 8;
 
 /// One value per wavelength of a path.

@@ -4,7 +4,8 @@
 //! - `library`: [`Library`], data sets and materials by name, built in or from a user's folders; `toml_file`,
 //!   `rii_page`, `csv_file` read the formats; `about` is the provenance that comes along.
 //! - `integrate`: exact integrals of products of spectra; `observer`: the CIE observers.
-//! - `nodes`: the wavelengths that the renderer uses, and how they sample an integral; `lanes`: those of one path.
+//! - `density`: how densely wavelengths are chosen; `nodes`: those that the renderer uses, and how they sample an integral;
+//!   `lanes`: those of one path.
 //! - `arena`: the spectra of a scene and their tables; `bins`: intervals of wavelength for spectral pictures.
 //! - `colorimeter`: from a reflectance to RGB, as tables are made.
 //! - `color`, `spaces`, `delta_e`, `upsample`: from XYZ to RGB, to a colour difference, and from RGB to a reflectance;
@@ -21,6 +22,7 @@ mod colorimeter;
 mod csv_file;
 mod curve;
 mod delta_e;
+mod density;
 mod emission;
 mod error;
 mod formula;
@@ -47,13 +49,14 @@ pub use color::{Matrix3, Xyz, bradford, lab_from_xyz, xyz_from_lab, xyz_from_xy}
 pub use colorimeter::{Adaptation, Colorimeter};
 pub use curve::Spectrum;
 pub use delta_e::{ciede2000, ciede2000_metric};
+pub use density::Density;
 pub use emission::{Daylight, Line, planck};
 pub use error::{SpectrumError, nearest};
 pub use formula::{Formula, FormulaType};
 pub use integrate::{integrate, luminance, tristimulus, tristimulus_1nm, white_xyz, white_xyz_1nm};
 pub use lanes::{LANES, Lanes};
 pub use library::{Library, MaterialText};
-pub use nodes::{Density, NODE_COUNT, Nodes};
+pub use nodes::{NODE_COUNT, Nodes};
 pub use observer::{ColorMatching, Observer};
 pub use primaries::srgb_primaries;
 pub use sigmoid::Sigmoid;

@@ -2,118 +2,18 @@
 //!
 //! Every spectrum is tabulated at the nodes once, so that a lookup in a path is one load. Node i stands for the cell
 //! between the quantiles i/M and (i+1)/M of the density: its wavelength is the middle of the cell, its weight the cell's
-//! width, so a constant integrates exactly; XYZ of A and D50…D75 are within 4e-7, of FL1–FL12 and LED-B1…5 within 5e-6.
+//! width, so a constant integrates exactly; XYZ of A and D50…D75 are within 4e-7, of FL1–FL12 and LED-B1…5 within 5e-6 (of FL1–FL12
+//! within 2e-6 by the density that follows them).
 //! Set s of N lanes has the nodes s + j·M/N, j = 0…N−1: one in each N-th of the density, so a path sees the whole
 //! range, and ∫ f dλ is the mean over the sets of (M/N) Σ_j f(λ_j) w_j.
 //!
-//! The density is that of M. Radziszewski, K. Boryczko & W. Alda, "An improved technique for full spectral rendering",
-//! Journal of WSCG 17 (2009), p(λ) ∝ sech²(0.0072 (λ − 538)) on 360–830 nm. Emission lines get narrow boxes of their own
-//! in it, and with them nodes; they are then lines 0.1 nm wide, about what lamps have.
+//! Emission lines are lines 0.1 nm wide, about what lamps have, where the density has boxes for them.
 
-use super::{ColorMatching, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Line, Spectrum, Xyz};
+use super::density::LINE_HALF_WIDTH_NM;
+use super::{ColorMatching, Density, LAMBDA_MAX_NM, LAMBDA_MIN_NM, LANES, Line, Spectrum, Xyz};
 
 /// How many nodes there are: M.
 pub const NODE_COUNT: usize = 2048;
-
-/// Half the width that an emission line is given, nm. XYZ of FL2 with five mercury lines is then within 1.1e-5; wider would
-/// shift colours in proportion, because x̄, ȳ, z̄ bend at every nm and a line on a bend is wrong by half its width times it.
-const LINE_HALF_WIDTH_NM: f64 = 0.05;
-
-/// The share of the nodes that one line gets (so that each set of eight holds it once), and that all get at most.
-const SHARE_OF_LINE: f64 = 0.125;
-const SHARE_OF_LINES: f64 = 0.5;
-
-const STEEPNESS: f64 = 0.0072;
-const CENTRE_NM: f64 = 538.0;
-
-/// How densely the wavelengths of the visible range are sampled.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Density {
-    /// Sorted, apart, within the range; nm.
-    lines_nm: Vec<f64>,
-    /// The probability of all lines together.
-    share: f64,
-    /// tanh at the ends of the range, between which the smooth part is normalised.
-    tanh_ends: (f64, f64),
-}
-
-impl Density {
-    /// Without emission lines.
-    pub fn visible() -> Self {
-        Self::with_lines([])
-    }
-
-    /// With nodes around emission lines; those outside 360–830 nm do not count.
-    pub fn with_lines(lines_nm: impl IntoIterator<Item = f64>) -> Self {
-        let inside = LAMBDA_MIN_NM + LINE_HALF_WIDTH_NM..=LAMBDA_MAX_NM - LINE_HALF_WIDTH_NM;
-        let mut lines_nm: Vec<_> = lines_nm.into_iter().filter(|nm| inside.contains(nm)).collect();
-        lines_nm.sort_by(f64::total_cmp);
-        lines_nm.dedup();
-        let share = (SHARE_OF_LINE * lines_nm.len() as f64).min(SHARE_OF_LINES);
-        let tanh_ends = (tanh(LAMBDA_MIN_NM), tanh(LAMBDA_MAX_NM));
-        Self { lines_nm, share, tanh_ends }
-    }
-
-    /// Probability density at a wavelength, nm⁻¹.
-    pub fn pdf(&self, nm: f64) -> f64 {
-        if !(LAMBDA_MIN_NM..=LAMBDA_MAX_NM).contains(&nm) {
-            return 0.0;
-        }
-        let sech = 1.0 / libm::cosh(STEEPNESS * (nm - CENTRE_NM));
-        let (low, high) = self.tanh_ends;
-        let smooth = STEEPNESS * sech * sech / (high - low);
-        let boxes = self.lines_nm.iter().filter(|&&line| (nm - line).abs() <= LINE_HALF_WIDTH_NM).count();
-        (1.0 - self.share) * smooth + boxes as f64 * self.box_height()
-    }
-
-    /// Probability of a shorter wavelength.
-    pub fn cdf(&self, nm: f64) -> f64 {
-        let nm = nm.clamp(LAMBDA_MIN_NM, LAMBDA_MAX_NM);
-        let (low, high) = self.tanh_ends;
-        let smooth = (tanh(nm) - low) / (high - low);
-        let below = |&line: &f64| (nm - line + LINE_HALF_WIDTH_NM).clamp(0.0, 2.0 * LINE_HALF_WIDTH_NM);
-        let boxes: f64 = self.lines_nm.iter().map(below).sum();
-        (1.0 - self.share) * smooth + boxes * self.box_height()
-    }
-
-    fn box_height(&self) -> f64 {
-        match self.lines_nm.len() {
-            0 => 0.0,
-            count => self.share / (count as f64 * 2.0 * LINE_HALF_WIDTH_NM),
-        }
-    }
-
-    /// The wavelength with a probability below it: the inverse of `cdf`, between two wavelengths that enclose it.
-    fn quantile(&self, u: f64, mut low: f64, mut high: f64) -> f64 {
-        if self.lines_nm.is_empty() {
-            let (first, last) = self.tanh_ends;
-            let nm = CENTRE_NM + libm::atanh(first + u * (last - first)) / STEEPNESS;
-            return nm.clamp(low, high);
-        }
-        let mut nm = 0.5 * (low + high);
-        for _ in 0..80 {
-            let excess = self.cdf(nm) - u;
-            if excess > 0.0 {
-                high = nm
-            } else {
-                low = nm
-            }
-            // Newton where it stays inside, halves where it does not (the density jumps at the boxes).
-            let newton = nm - excess / self.pdf(nm);
-            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            if (next - nm).abs() < 1e-11 {
-                break;
-            }
-            nm = next;
-        }
-        nm
-    }
-}
-
-/// The integral of sech², but for a factor.
-fn tanh(nm: f64) -> f64 {
-    libm::tanh(STEEPNESS * (nm - CENTRE_NM))
-}
 
 /// The nodes of a render.
 #[derive(Clone, Debug)]
@@ -198,6 +98,20 @@ impl Nodes {
         sum
     }
 
+    /// How far off what one set of [`LANES`] wavelengths tells of a light is: the variance of its XYZ over that of the whole,
+    /// squared.
+    pub fn variance(&self, light: &Spectrum, observer: &ColorMatching) -> f64 {
+        let sets = NODE_COUNT / LANES;
+        let mut told = vec![[0.0; 3]; sets];
+        for (i, (value, weight)) in self.values(light).into_iter().zip(self.observer_weights(observer)).enumerate() {
+            (0..3).for_each(|c| told[i % sets][c] += value * weight[c]);
+        }
+        let mean: Xyz = std::array::from_fn(|c| told.iter().map(|xyz| xyz[c]).sum::<f64>() / sets as f64);
+        let squares = told.iter().flat_map(|xyz| (0..3).map(|c| (xyz[c] - mean[c]) * (xyz[c] - mean[c])));
+        let whole: f64 = mean.iter().map(|value| value * value).sum();
+        if whole > 0.0 { squares.sum::<f64>() / (sets as f64 * whole) } else { 0.0 }
+    }
+
     /// A cell cut at sorted breakpoints: middle and width of each piece, nm. What is straight in between integrates
     /// exactly by these middles.
     fn pieces(&self, i: usize, breakpoints: &[f64]) -> impl Iterator<Item = (f64, f64)> {
@@ -245,11 +159,12 @@ impl Nodes {
 
 #[cfg(test)]
 mod tests {
+    use super::super::density::of_lines;
     use super::*;
 
     #[test]
     fn cells_hold_equal_probability_and_fill_the_range() {
-        for density in [Density::visible(), Density::with_lines([435.833, 546.074, 576.96, 579.066, 589.3, 10.0])] {
+        for density in [Density::visible(), of_lines(&[435.833, 546.074, 576.96, 579.066, 589.3, 10.0])] {
             let nodes = Nodes::new(&density);
             let total: f64 = (0..NODE_COUNT).map(|i| nodes.weight_nm(i)).sum();
             assert!((total - 470.0).abs() < 1e-9);
@@ -262,20 +177,9 @@ mod tests {
     }
 
     #[test]
-    fn pdf_is_the_slope_of_cdf() {
-        let density = Density::with_lines([546.074]);
-        for nm in [360.1, 450.0, 546.05, 546.074, 700.0, 829.9] {
-            let slope = (density.cdf(nm + 1e-4) - density.cdf(nm - 1e-4)) / 2e-4;
-            assert!((slope / density.pdf(nm) - 1.0).abs() < 1e-5, "{nm}");
-        }
-        assert_eq!((density.cdf(0.0), density.pdf(0.0), density.pdf(900.0)), (0.0, 0.0, 0.0));
-        assert!((density.cdf(900.0) - 1.0).abs() < 1e-14);
-    }
-
-    #[test]
     fn lines_keep_their_power_and_place() {
         let lines = [435.833, 546.074, 589.0, 589.6];
-        for density in [Density::visible(), Density::with_lines(lines)] {
+        for density in [Density::visible(), of_lines(&lines)] {
             let nodes = Nodes::new(&density);
             for nm in lines.into_iter().chain([365.0, 825.0, 600.0]) {
                 let values = nodes.values(&Spectrum::Lines(vec![Line { nm, power: 3.0 }]));

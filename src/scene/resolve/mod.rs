@@ -123,7 +123,7 @@ impl Resolver<'_> {
         let camera = self.camera(&file.camera, &view, [settings.width, settings.height])?;
         let around_camera = self.around_camera(&view, &world, &objects)?;
         let picture = self.picture(&file.picture)?;
-        let lights = Lights::new(emitters, environment, objects.len());
+        let lights = Lights::new(emitters, environment, &world);
         self.warn_of_lost_light(!file.points.is_empty(), file.environment.is_some() || !file.suns.is_empty());
         self.warn_of_darkness();
         self.warn_of_unused_materials();
@@ -176,7 +176,7 @@ impl Resolver<'_> {
 }
 
 /// The surface of the box around all shapes, through which the environment lights them.
-fn surface(bounds: &Bounds) -> f64 {
+pub(super) fn surface(bounds: &Bounds) -> f64 {
     let [x, y, z] = if bounds.is_empty() { [1.0; 3] } else { bounds.size().to_array().map(f64::from) };
     2.0 * (x * y + y * z + z * x)
 }

@@ -1,0 +1,10 @@
+//! The light tree: its choice as a probability, and the light that it finds.
+
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../statistics/mod.rs"]
+mod statistics;
+
+mod choice;
+mod lamps;
+mod light;
