@@ -2,7 +2,7 @@
 """Measures error against time of spectrel and of Mitsuba 3 on the same scenes, one after the other in one run.
 
     cargo build --release
-    python3 benches/peers/speed.py             # all scenes, about 25 minutes on two free cores, 15 once there are references
+    python3 benches/peers/speed.py             # all scenes, about 20 minutes on two free cores, 12 once there are references
     python3 benches/peers/speed.py --quick     # whether everything runs; the figures are none
     python3 benches/peers/speed.py metals      # one scene
     python3 benches/peers/speed.py own         # what ways of rendering with spectrel cost against each other
