@@ -128,7 +128,7 @@ fn what_is_only_rendered_differently_has_no_bias() {
     let mut alarms = 0;
     for seed in ["0", "1", "2"] {
         let args =
-            ["--spp", "4,64", "--reference-spp", "2048", "--models", "exact", "--keep-dispersion", "--seed", seed];
+            ["--spp", "4,64", "--reference-spp", "2048", "--models", "exact", "--dispersion", "on", "--seed", seed];
         let found = found(&[&args[..], &AMPLE[..]].concat());
         for label in UNBIASED {
             let variant = variant(&found, label);
@@ -154,7 +154,7 @@ fn less_error_by_more_samples(found: &Value) {
 
 #[test]
 fn what_is_another_picture_has_a_bias() {
-    let args = ["--spp", "4,64", "--reference-spp", "2048", "--models", "schlick,constant", "--keep-dispersion"];
+    let args = ["--spp", "4,64", "--reference-spp", "2048", "--models", "schlick,constant", "--dispersion", "on"];
     let found = found(&[&args[..], &AMPLE[..]].concat());
     let bias = |label: &str| variant(&found, label)["bias"].clone();
     assert_eq!(bias("constant")["verdict"], "different", "{}", bias("constant"));
@@ -191,11 +191,59 @@ fn without_dispersion_a_diamond_is_one_of_a_single_index() {
     assert!(dispersive.dispersive && !diamond.dispersive);
     assert_eq!(n, usual.spectra.get(dispersive.n).at(spectrel::spectrum::HELIUM_D_NM));
     assert!((n - 2.4175).abs() < 5e-4, "{n}");
-    let constant = SCENE.replace("material = \"diamond\"", "material = \"flat\"")
-        + &format!("[materials.flat.dielectric]\nior = {{ n = {n:?}, k = 0 }}\n");
-    let constant = scene(&constant, &Overrides { samples: Some(8), ..Overrides::default() });
+    let constant = scene(&flat_scene(), &Overrides { samples: Some(8), ..Overrides::default() });
     assert_eq!(film(&flat).pixels(), film(&constant).pixels());
     assert_ne!(film(&flat).pixels(), film(&usual).pixels());
+}
+
+/// The scene's diamond with one index at all wavelengths, as `--dispersion off` renders it.
+fn flat_scene() -> String {
+    let flat = scene(SCENE, &Overrides { samples: Some(1), without_dispersion: true, ..Overrides::default() });
+    let diamond = flat.media.iter().find(|medium| medium.name == "diamond").expect("a diamond");
+    let n = flat.spectra.get(diamond.n).at(450.0);
+    SCENE.replace("material = \"diamond\"", "material = \"flat\"")
+        + &format!("[materials.flat.dielectric]\nior = {{ n = {n:?}, k = 0 }}\n")
+}
+
+/// Every combination, the fewest changes first; and a combination is rendered as its name says: as the one that changes one thing less
+/// in a scene that has the other change written down.
+#[test]
+fn a_product_has_all_combinations() {
+    let folder = folder(&[("s.toml", SCENE), ("flat.toml", &flat_scene())]);
+    run(folder.path(), &["render", "s.toml", "-q", "--spp", "64", "-o", "r.exr"]);
+    let bench = |file: &str, more: &[&str]| {
+        let args = ["bench", file, "-q", "-o", "out", "--force", "--spp", "4", "--reference", "r.exr"];
+        run(folder.path(), &[&args[..], more, &AMPLE[..]].concat());
+        report(folder.path(), "out")["scenes"][0].clone()
+    };
+    let axes = ["--models", "exact,schlick", "--lanes", "8,4", "--samplers", "sobol,independent"];
+    let product = bench("s.toml", &[&axes[..], &["--dispersion", "on,off", "--product"]].concat());
+    let labels: Vec<_> = array(&product, "variants").iter().filter_map(|v| v["label"].as_str()).collect();
+    assert_eq!(labels[..5], ["exact, 8 lanes, sobol", "schlick", "4 lanes", "independent", "no dispersion"]);
+    assert_eq!(
+        (labels.len(), labels[5], labels[15]),
+        (16, "schlick, 4 lanes", "schlick, 4 lanes, independent, no dispersion")
+    );
+    let changes = |variant: &Value| array(variant, "changes").len();
+    assert!(array(&product, "variants").is_sorted_by_key(changes), "{labels:?}");
+    let last = &product["variants"][15];
+    assert_eq!(last["changes"], serde_json::json!(["model", "lanes", "sampler", "dispersion"]));
+    assert_eq!(
+        (&last["model"], &last["lanes"], &last["sampler"]),
+        (&"schlick".into(), &4.into(), &"independent".into())
+    );
+    assert_eq!(last["dispersion"], Value::Bool(false));
+    let said: Vec<_> = array(&product, "findings").iter().filter_map(Value::as_str).collect();
+    assert!(said.iter().any(|line| line.starts_with("Of 11 ways that change several things at once")), "{said:?}");
+    let single = bench("flat.toml", &axes);
+    assert_eq!(array(&single, "variants").len(), 4);
+    for (in_product, in_single) in [("schlick, no dispersion", "schlick"), ("4 lanes, no dispersion", "4 lanes")] {
+        let mse = |found: &Value, label: &str| number(variant(found, label), "/runs/0/mse");
+        assert_eq!(mse(&product, in_product), mse(&single, in_single), "{in_product}");
+        assert_ne!(mse(&product, in_product), mse(&product, in_single), "{in_product}");
+    }
+    let page = fs::read_to_string(folder.path().join("out/bench.html")).expect("a page");
+    assert!(page.contains("in one thing; each"));
 }
 
 /// A picture of our own as a reference, in either of the spaces it can be in: the same light, the same errors.
@@ -207,7 +255,7 @@ fn a_reference_can_be_a_file() {
     render(&["--exr-xyz", "-o", "xyz.exr"]);
     let bench = |name: &str| {
         let args =
-            ["bench", "s.toml", "-q", "-o", "out", "--force", "--spp", "16", "--models", "exact", "--keep-dispersion"];
+            ["bench", "s.toml", "-q", "-o", "out", "--force", "--spp", "16", "--models", "exact", "--dispersion", "on"];
         run(folder.path(), &[&args[..], &["--reference", name], &AMPLE[..]].concat());
         report(folder.path(), "out")["scenes"][0].clone()
     };
@@ -248,6 +296,14 @@ fn time_is_kept_and_what_it_cost_is_told() {
     let left_out: Vec<_> = array(&found, "left_out").iter().filter_map(Value::as_str).collect();
     assert!(left_out.contains(&"schlick: no time for it"), "{left_out:?}");
     assert!(left_out.contains(&"4 samples a pixel: no time for them"), "{left_out:?}");
+    let none = ["bench", "s.toml", "-q", "-o", "product", "--product", "--models", "schlick", "--samplers", "sobol"];
+    run(folder.path(), &[&none[..], &["--time-budget", "0.001ms", "--spp", "2"]].concat());
+    let found = report(folder.path(), "product")["scenes"][0].clone();
+    let left_out: Vec<_> = array(&found, "left_out").iter().filter_map(Value::as_str).collect();
+    // Of two models, three numbers of lanes and dispersion or none: one change in 1 + 2 + 1 ways, three in 1 · 2 · 1, two in the rest.
+    let two = "5 of 5 ways that change 2 things at once: no time for them";
+    let three = "2 of 2 ways that change 3 things at once: no time for them";
+    assert_eq!((left_out.len(), left_out[4], left_out[5]), (6, two, three), "{left_out:?}");
 }
 
 #[test]
@@ -255,7 +311,7 @@ fn what_cannot_be_is_refused() {
     let metal_only = SCENE.split("[[objects]]\nmaterial = \"diamond\"").next().expect("the beginning");
     let folder = folder(&[("s.toml", SCENE), ("metal.toml", metal_only), ("mine/notes.txt", "x")]);
     let refused = |args: &[&str]| refused(folder.path(), &[&["bench"], args].concat());
-    let cases: [(&[&str], &[&str]); 9] = [
+    let cases: [(&[&str], &[&str]); 11] = [
         (&["t.toml"], &["there is no file t.toml", "did you mean s.toml?"]),
         (&["s.toml", "--models", "schlik"], &["did you mean `schlick`?"]),
         (&["metal.toml", "--models", "cook-torrance"], &["cook-torrance", "gold"]),
@@ -263,6 +319,8 @@ fn what_cannot_be_is_refused() {
         (&["s.toml", "--spp", "4,8,4"], &["--spp names 4 twice"]),
         (&["s.toml", "--lanes", "2"], &["1, 4 or 8"]),
         (&["s.toml", "--samplers", "halton"], &["sobol or independent"]),
+        (&["s.toml", "--dispersion", "maybe"], &["dispersion is on or off"]),
+        (&["s.toml", "--dispersion", "off,off"], &["--dispersion names one of its values twice"]),
         (&["s.toml", "--time-budget", "soon"], &["expected a time"]),
         (&["s.toml", "-o", "mine", "--force"], &["no report of `spectrel bench`"]),
     ];

@@ -4,41 +4,22 @@
     cargo build --release
     python3 benches/peers/compare.py                         # all scenes, about a quarter of an hour on two free cores
     python3 benches/peers/compare.py --samples 64 glass      # a quick look at one
-    python3 benches/peers/compare.py --time                  # also error against CPU time
-    python3 benches/peers/compare.py --write                 # renders nothing: writes README.md from the last results of each scene
+    python3 benches/peers/compare.py --write                 # renders nothing: writes its part of README.md from the last results
 
 The Python packages go into an environment of their own below `target/`.
 """
 
 import argparse
 import json
-import os
-import subprocess
-import sys
-import venv
-from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-WORK = HERE.parents[1] / "target" / "peers"
+import environment
+from environment import HERE, WORK
+
 # With the samples a pixel and replicate that bring the standard error of the larger regions below 0.05 %.
 SCENES = {"metals": 1024, "cornell": 1024, "glass": 1024}
 
 # The exchanged masking term is rendered with so many times fewer samples.
 EXCHANGE = 16
-
-
-def enter_environment():
-    """Starts this script anew with the pinned packages, which are installed the first time."""
-    folder = WORK / "venv"
-    python = folder / "bin" / "python"
-    pins = HERE / "requirements.txt"
-    installed = folder / "requirements.txt"
-    if not installed.exists() or installed.read_text() != pins.read_text():
-        venv.create(folder, with_pip=True)
-        subprocess.run([python, "-m", "pip", "install", "-q", "-r", pins], check=True)
-        installed.write_text(pins.read_text())
-    if Path(sys.prefix).resolve() != folder.resolve():
-        os.execv(python, [python, *sys.argv])
 
 
 def arguments():
@@ -48,7 +29,6 @@ def arguments():
     parser.add_argument("--replicates", type=int, default=8, help="renders with seeds of their own (default: 8)")
     parser.add_argument("--write", action="store_true", help="render nothing, write README.md from the last results")
     parser.add_argument("--pictures", action="store_true", help="write PNGs of both and their difference")
-    parser.add_argument("--time", action="store_true", help="also error against CPU time")
     options = parser.parse_args()
     options.scenes = options.scenes or list(SCENES)
     for name in options.scenes:
@@ -76,7 +56,7 @@ def compare(name, options):
 
     def replicates(renderer, first, samples):
         # Seeds apart: the generators differ, but nothing is lost by not sharing them.
-        return [renderer.render(samples, first + 100 * i)[0] for i in range(options.replicates)]
+        return [renderer.render(samples, first + 100 * i).picture for i in range(options.replicates)]
 
     peer = renderers.Mitsuba(description)
     masks = regions.of(peer.scene, description)
@@ -103,31 +83,28 @@ def compare(name, options):
 
 
 def main():
-    enter_environment()
+    environment.enter()
     options = arguments()
 
     import mitsuba as mi
 
     mi.set_variant("scalar_spectral")
 
+    import page
     import report
-    import timing
     import translate
 
     translate.register()
     WORK.mkdir(parents=True, exist_ok=True)
     if options.write:
         results = [json.loads((WORK / f"{name}.json").read_text()) for name in SCENES]
-        (HERE / "README.md").write_text(report.page([report.Result.from_json(result) for result in results]))
+        page.replace("means", report.section([report.Result.from_json(result) for result in results]))
         return
     for name in options.scenes:
         sections, pictures = compare(name, options)
         result = report.Result(sections)
         if options.pictures:
             report.write_pictures(WORK / f"{name}.png", *pictures)
-        if options.time:
-            rows = timing.measure(HERE / f"{name}.toml", *pictures, WORK / "library")
-            result.times = timing.table(name, rows)
         print(result, flush=True)
         (WORK / f"{name}.json").write_text(json.dumps(result.to_json()))
 

@@ -5,6 +5,7 @@ import resource
 import subprocess
 import tempfile
 import time
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -20,36 +21,51 @@ TO_CANDELA = spectra.LUMENS_PER_WATT * MITSUBA_CONSTANT
 SPECTREL = Path(os.environ.get("SPECTREL", spectra.ROOT / "target" / "release" / "spectrel"))
 
 
+@dataclass
+class Render:
+    picture: np.ndarray
+    # Seconds of user and system time of all threads, and on the clock: of spectrel's whole process, of Mitsuba's render alone.
+    cpu: float
+    wall: float
+
+
 class Spectrel:
-    """With a folder of data to be searched before its own, if one is given."""
+    """With a folder of data to be searched before its own, and options of its command line."""
 
-    def __init__(self, path, library=None):
+    def __init__(self, path, library=None, options=()):
         self.path = path
-        self.library = ["--library", library] if library else []
+        self.options = [*(["--library", library] if library else []), *options]
 
-    def render(self, samples, seed):
-        """The picture and the CPU seconds of the whole process."""
+    def command(self, output, *more):
+        return [str(word) for word in [SPECTREL, "render", self.path, "--exr-xyz", "-q", "-o", output, *self.options, *more]]
+
+    def render(self, samples, seed, *more):
         with tempfile.TemporaryDirectory() as folder:
             output = Path(folder) / "picture.exr"
-            command = [SPECTREL, "render", self.path, "--exr-xyz", "-q", "-o", output, *self.library]
-            command += ["--spp", str(samples), "--seed", str(seed)]
-            before = children()
+            command = self.command(output, "--spp", samples, "--seed", seed, *more)
+            before = children(), time.perf_counter()
             subprocess.run(command, check=True)
-            seconds = children() - before
-            bitmap = mi.Bitmap(str(output))
-        # XYZ stands in channels called R, G and B, see `src/image/exr.rs`.
-        return np.array(bitmap, dtype=np.float64), seconds
+            cpu, wall = children() - before[0], time.perf_counter() - before[1]
+            # XYZ stands in channels called R, G and B, see `src/image/exr.rs`.
+            return Render(np.array(mi.Bitmap(str(output)), dtype=np.float64), cpu, wall)
+
+    def loading(self, *more):
+        """One sample of one pixel: what is not rendering."""
+        return self.render(1, 0, "--crop", "0,0,1,1", *more)
 
 
 class Mitsuba:
-    def __init__(self, description, correlated=False, sampler="multijitter"):
-        # Unoptimised, for merged shapes lose the names that regions go by.
-        self.scene = mi.load_dict(translate.scene(description, correlated, sampler), optimize=False)
+    """With sensors for `views`, see `translate.scene`."""
 
-    def render(self, samples, seed):
-        before = time.process_time()
-        picture = np.array(mi.render(self.scene, spp=samples, seed=seed), dtype=np.float64)
-        return picture * TO_CANDELA, time.process_time() - before
+    def __init__(self, description, correlated=False, views=None):
+        # Unoptimised, for merged shapes lose the names that regions go by.
+        self.scene = mi.load_dict(translate.scene(description, correlated, views), optimize=False)
+
+    def render(self, samples, seed, view=0):
+        before = time.process_time(), time.perf_counter()
+        picture = np.array(mi.render(self.scene, sensor=view, spp=samples, seed=seed), dtype=np.float64)
+        cpu, wall = time.process_time() - before[0], time.perf_counter() - before[1]
+        return Render(picture * TO_CANDELA, cpu, wall)
 
 
 def observer():
@@ -63,6 +79,10 @@ def children():
     return usage.ru_utime + usage.ru_stime
 
 
-def versions():
+def version():
     run = subprocess.run([SPECTREL, "--version"], check=True, capture_output=True, text=True)
-    return run.stdout.strip(), f"Mitsuba {mi.__version__}, variant `{mi.variant()}`"
+    return run.stdout.strip()
+
+
+def versions():
+    return version(), f"Mitsuba {mi.__version__}, variant `{mi.variant()}`"

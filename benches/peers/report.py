@@ -1,4 +1,4 @@
-"""The report: tables, what they mean, and the page that holds them."""
+"""What `compare.py` found: tables, what they mean, and its part of the page."""
 
 import datetime
 from dataclasses import asdict, dataclass, field
@@ -8,7 +8,6 @@ import numpy as np
 import mitsuba as mi
 import renderers
 import spectra
-import timing
 from measure import Deviation
 
 LIMIT = 0.2
@@ -18,14 +17,13 @@ LIGHTS = [("A", None), ("D65", None), ("A", "red"), ("A", "green"), ("D65", "ora
 
 @dataclass
 class Result:
-    """Of one scene: sections of a title and rows of (region, pixels, deviations), and the table of times if there is one."""
+    """Of one scene: sections of a title and rows of (region, pixels, deviations)."""
 
     sections: list
-    times: str = ""
     date: str = field(default_factory=lambda: datetime.date.today().isoformat())
 
     def __str__(self):
-        return f"{tables(self.sections)}\n{summary(self.sections)}\n{self.times}"
+        return f"{tables(self.sections)}\n{summary(self.sections)}"
 
     def to_json(self):
         return asdict(self)
@@ -36,13 +34,13 @@ class Result:
             (title, [(region, pixels, [Deviation(**each) for each in found]) for region, pixels, found in rows])
             for title, rows in data["sections"]
         ]
-        return cls(sections, data["times"], data["date"])
+        return cls(sections, data["date"])
 
 
 def tables(sections):
     lines = []
     for title, rows in sections:
-        lines += [f"### {title[0].upper()}{title[1:]}", ""]
+        lines += [f"#### {title[0].upper()}{title[1:]}", ""]
         lines += ["| region | pixels | " + " | ".join(f"{c}, %" for c in CHANNELS) + " |", "|---|--:|--:|--:|--:|"]
         for region, pixels, (x, y, z) in rows:
             lines.append(f"| {region} | {pixels} | {y} | {x} | {z} |")
@@ -86,25 +84,20 @@ def observers():
     return spectra.integral(white, theirs)[1], "\n".join(lines) + "\n"
 
 
-PAGE = """\
-# Against Mitsuba 3
+SECTION = """\
+## Means
 
-An outside check: the same scenes rendered by spectrel and by [Mitsuba 3](https://mitsuba-renderer.org), a renderer that shares
-no line of code with it. This page is written by `python3 benches/peers/compare.py --write` from what its last runs found.
+By `python3 benches/peers/compare.py`: means of regions of the same scenes.
 
 - {spectrel}; {mitsuba}, its `path` integrator and `multijitter` sampler; {date}
 - Renders of each with seeds of their own, as many as each title says; box filter, no limit on path length but roulette
-- The scenes are the three `.toml` files here. `translate.py` turns them into Mitsuba scenes and stops at anything it does not know;
-  n and k, reflectances and lights are read from `spectra/` at run time and handed over as tables, lights in W m⁻² sr⁻¹ nm⁻¹
-
-## Result
 
 Figures are 100 (spectrel / Mitsuba − 1), with the half width of the 95 % confidence interval from the scatter between renders.
 The aim is means within {limit} %. "Alike" is the strict comparison: what the two do differently on purpose is exchanged in one of
 them, as described below. "As they are" exchanges nothing but the constant. No figure is fitted.
 
 {summary}
-## What is allowed for
+### What is allowed for
 
 1. **Mitsuba's constant.** It divides XYZ by {constant:.4f}, while its own observer integrates to {integral:.4f}: a white light of
    luminance 1 comes out as {factor:.5f}. Its pictures are multiplied by 683 × {constant:.4f}, which undoes the division and gives
@@ -123,40 +116,20 @@ Made alike in the scenes: lamps are given a black surface in Mitsuba (half grey 
 stand where a plain number would pass through an RGB model, and tables that end inside the visible keep their end value, as spectrel
 reads them.
 
-## By region
+### By region
 
 A pixel belongs to an object if rays through its corners and its centre meet it. Neither the regions nor the channels are independent of
 each other, so of many intervals about one in twenty misses zero by chance, and neighbours miss it together.
 
-{tables}{times}
-## Again
-
-    cargo build --release
-    python3 benches/peers/compare.py --time
-    python3 benches/peers/compare.py --write
-
-Needs Python 3.11 or newer; `requirements.txt` is installed below `target/` the first time. `--pictures` writes both pictures and their
-difference there, `--samples 64 glass` is a quick look.
-"""
-
-TIMES = """
-## Error against CPU time
-
-{samples} samples a pixel, median time and mean error of {seeds} renders. MSE is over pixels and X, Y and Z, each in units of its mean, against
-the mean of both renderers' pictures above, less the noise of that mean. CPU seconds are user and system time of all threads: of the
-whole process for spectrel, of the render alone for Mitsuba, scene loading and compilation left out. The machine was not idle.
-
 {tables}"""
 
 
-def page(results):
+def section(results):
+    """Of the page."""
     spectrel, mitsuba = renderers.versions()
     integral, lights = observers()
     sections = [section for result in results for section in result.sections]
-    times = "\n".join(result.times for result in results if result.times)
-    if times:
-        times = TIMES.format(samples=timing.SAMPLES, seeds=len(timing.SEEDS), tables=times)
-    return PAGE.format(
+    return SECTION.format(
         spectrel=spectrel,
         mitsuba=mitsuba,
         date=max(result.date for result in results),
@@ -167,7 +140,6 @@ def page(results):
         factor=integral / renderers.MITSUBA_CONSTANT,
         observers=lights,
         tables=tables(sections),
-        times=times,
     )
 
 

@@ -4,16 +4,24 @@ Only what the comparison scenes use is known; anything else stops the run, so th
 """
 
 import tomllib
+from pathlib import Path
 
 import numpy as np
 
 import mitsuba as mi
+import solids
 import spectra
+from environment import WORK
 
 
 def load(path):
+    """A scene file, with the names of the files in it as seen from here."""
     with open(path, "rb") as file:
-        return tomllib.load(file)
+        description = tomllib.load(file)
+    for entry in description["objects"]:
+        if "mesh" in entry["shape"]:
+            entry["shape"]["mesh"]["file"] = str(Path(path).parent / entry["shape"]["mesh"]["file"])
+    return description
 
 
 def only(entry, *known):
@@ -67,8 +75,34 @@ def bsdf(material, correlated):
     return rough
 
 
-def shape(entry):
-    kind, value = next(iter(only(entry, "sphere", "rectangle", "box").items()))
+def transform(place):
+    """Of an object: about the x axis, then along."""
+    x, y, z = only(place, "rotate", "translate").get("rotate", [0, 0, 0])
+    if y or z:
+        raise SystemExit("not translated: a rotation about y or z")
+    return mi.ScalarTransform4f().translate(place.get("translate", [0, 0, 0])).rotate([1, 0, 0], x)
+
+
+def mesh(path, to_world):
+    return {"type": "ply", "filename": str(path), "face_normals": True, "to_world": to_world}
+
+
+def cut(proportions, to_world):
+    """A convex solid of spectrel's, as triangles."""
+    name = " ".join(f"{key} {value}" for key, value in sorted(proportions.items()))
+    path = WORK / "meshes" / f"brilliant {name}.ply"
+    solids.write_ply(path, *solids.brilliant(proportions))
+    return mesh(path, to_world)
+
+
+def shape(entry, place):
+    kind, value = next(iter(only(entry, "sphere", "rectangle", "box", "brilliant", "mesh").items()))
+    if kind == "mesh":
+        return mesh(only(value, "file")["file"], transform(place))
+    if kind == "brilliant":
+        return cut(value, transform(place))
+    # The others stand where they say.
+    only(place)
     center = value.get("center", [0, 0, 0])
     if kind == "sphere":
         return {"type": "sphere", "center": center, "radius": value["radius"]}
@@ -90,40 +124,49 @@ def shape(entry):
     return {"type": "rectangle", "to_world": mi.ScalarTransform4f(matrix)}
 
 
-def scene(description, correlated=False, sampler="multijitter"):
-    """The dictionary that Mitsuba loads. Shapes are named `object 0`, `object 1`, … in the order of the file."""
+def sensor(description, sampler, size):
+    camera = only(description["camera"], "position", "look_at", "fov")
+    width, height = size
+    return {
+        "type": "perspective",
+        "fov": camera["fov"],
+        "fov_axis": "x",
+        "near_clip": 1e-3,
+        "to_world": mi.ScalarTransform4f().look_at(camera["position"], camera["look_at"], [0, 0, 1]),
+        "film": {
+            "type": "hdrfilm",
+            "width": width,
+            "height": height,
+            "pixel_format": "xyz",
+            "component_format": "float32",
+            "rfilter": {"type": "box"},
+        },
+        "sampler": {"type": sampler},
+    }
+
+
+def size(description):
+    return description["render"]["width"], description["render"]["height"]
+
+
+def scene(description, correlated=False, views=None):
+    """The dictionary that Mitsuba loads. Shapes are named `object 0`, `object 1`, … in the order of the file.
+
+    `views`, of a sampler and a size in pixels each, become its sensors in this order; one of the file's size unless given.
+    """
     only(description, "render", "camera", "environment", "materials", "objects")
     settings = only(description["render"], "width", "height", "samples", "filter")
-    camera = only(description["camera"], "position", "look_at", "fov")
     assert settings["filter"] == "box"
-    to_world = mi.ScalarTransform4f().look_at(camera["position"], camera["look_at"], [0, 0, 1])
-    result = {
-        "type": "scene",
-        "integrator": {"type": "path", "max_depth": -1},
-        "sensor": {
-            "type": "perspective",
-            "fov": camera["fov"],
-            "fov_axis": "x",
-            "near_clip": 1e-3,
-            "to_world": to_world,
-            "film": {
-                "type": "hdrfilm",
-                "width": settings["width"],
-                "height": settings["height"],
-                "pixel_format": "xyz",
-                "component_format": "float32",
-                "rfilter": {"type": "box"},
-            },
-            "sampler": {"type": sampler},
-        },
-    }
+    result = {"type": "scene", "integrator": {"type": "path", "max_depth": -1}}
+    for number, view in enumerate(views or [("multijitter", size(description))]):
+        result[f"sensor {number}"] = sensor(description, *view)
     if "environment" in description:
         sky = only(description["environment"], "constant")["constant"]
         result["sky"] = {"type": "constant", "radiance": emission(sky)}
     materials = {name: bsdf(material, correlated) for name, material in description["materials"].items()}
     for number, entry in enumerate(description["objects"]):
-        only(entry, "name", "material", "shape", "emission")
-        translated = shape(entry["shape"])
+        only(entry, "name", "material", "shape", "emission", "transform")
+        translated = shape(entry["shape"], entry.get("transform", {}))
         if "emission" in entry:
             translated["emitter"] = {"type": "area", "radiance": emission(entry["emission"])}
         # A lamp without a material is black in spectrel, half grey in Mitsuba.

@@ -61,9 +61,13 @@ pub struct BenchArgs {
     /// Samplers beside `sobol` [default: independent]
     #[arg(long, value_name = "NAME,…", value_parser = ways::sampler, value_delimiter = ',')]
     samplers: Vec<SamplerName>,
-    /// Do not try what leaving dispersion out saves (every n is then that of 587.6 nm)
+    /// Dispersion beside `on`; where it is off, every n is that of 587.6 nm [default: off]
+    #[arg(long, value_name = "on,off", value_parser = ways::switch, value_delimiter = ',')]
+    dispersion: Vec<bool>,
+    /// Try all combinations of these models, lanes, samplers and dispersion, and not only one change at a time; those that change the
+    /// fewest things go first
     #[arg(long)]
-    keep_dispersion: bool,
+    product: bool,
     /// Samples a pixel, separated by commas [default: 4, 16, 64, … as far as time goes]
     #[arg(long, value_name = "N,…", value_parser = clap::value_parser!(u32).range(1..), value_delimiter = ',')]
     spp: Vec<u32>,
@@ -214,7 +218,8 @@ impl Subject {
             }
         };
         let (needs_reference, reference) = (self.file.is_none(), args.reference_spp);
-        let plan = Plan { seed: args.seed, counts, reference, needs_reference, time };
+        let singles = self.ways.iter().filter(|way| way.changes().len() < 2).count();
+        let plan = Plan { seed: args.seed, counts, singles, reference, needs_reference, time };
         let Self { text, ways, scenes, file, mut left_out } = self;
         let [width, height] = [scenes[0].settings.width, scenes[0].settings.height];
         let (development, white_balance) = (job::development(&scenes[0]), scenes[0].picture.white_balance.clone());
@@ -255,12 +260,19 @@ fn from_file(file: reference::File, scene: &Scene) -> Result<Standard, SceneErro
 
 /// What there was no time for.
 fn missing(ways: &[Way], swept: &Swept, args: &BenchArgs) -> Vec<String> {
-    let of_ways = ways[swept.renders.len()..].iter().map(|way| format!("{}: no time for it", way.label()));
+    let untried = &ways[swept.renders.len()..];
+    let single = untried.iter().filter(|way| way.changes().len() == 1);
+    let of_ways = single.map(|way| format!("{}: no time for it", way.label()));
+    // Too many to be named.
+    let of_products = (2..=4).filter_map(|changes| {
+        let [left, all] = [untried, ways].map(|some| some.iter().filter(|way| way.changes().len() == changes).count());
+        (left > 0).then(|| format!("{left} of {all} ways that change {changes} things at once: no time for them"))
+    });
     let counts: Vec<_> = swept.counts_left_out.iter().map(u32::to_string).collect();
     // Of the default ones nobody asked for all.
     let of_counts = (!counts.is_empty() && !args.spp.is_empty())
         .then(|| format!("{} samples a pixel: no time for them", counts.join(", ")));
-    of_ways.chain(of_counts).collect()
+    of_ways.chain(of_products).chain(of_counts).collect()
 }
 
 /// Pixels of a row.

@@ -1,7 +1,8 @@
 //! All renders of one scene within a time: every way at more and more samples a pixel, then the reference.
 //!
 //! Ways take turns, each turn with one seed, so that what else the machine does falls on all alike. A count of samples is begun only if
-//! it and a reference of [`LEAST`] × as many samples are expected to end in time, by what the renders before it took.
+//! it and a reference of [`LEAST`] × as many samples are expected to end in time, by what the renders before it took. Ways that change
+//! several things are given up, from the last on, until all that are left get to [`GOAL`] counts.
 
 use super::super::job::window;
 use super::clock::{Clock, Spent};
@@ -25,6 +26,12 @@ const MOST: u32 = 64;
 
 /// Samples a pixel unless the command line says otherwise: as many of them as the time is enough for.
 pub const LADDER: [u32; 7] = [4, 16, 64, 256, 1024, 4096, 16384];
+
+/// Counts of samples, the first ones, that are worth more than one more combination: a slope, and an error that is not all noise.
+const GOAL: usize = 3;
+
+/// Part of the time that may go into seeing how long ways take.
+const PILOT: f64 = 0.25;
 
 /// How long one way takes.
 #[derive(Clone, Copy, Debug)]
@@ -55,6 +62,8 @@ pub struct Plan<'a> {
     pub seed: u64,
     /// Samples a pixel, ascending.
     pub counts: &'a [u32],
+    /// The ways at the beginning that change one thing at most.
+    pub singles: usize,
     /// Of the reference; `None`: what there is time for.
     pub reference: Option<u32>,
     /// Whether there is no reference yet.
@@ -82,11 +91,17 @@ pub struct Sweep<'a> {
 }
 
 impl<'a> Sweep<'a> {
-    /// The usual way first. Renders each once to see how long it takes.
+    /// The usual way first. Renders each once to see how long it takes; what there is no time to see is left out.
     pub fn begin(scenes: Vec<Scene>, plan: &'a Plan, tell: &'a dyn Fn(String)) -> Result<Self, SceneError> {
         let mut sweep = Self { plan, scenes, costs: Vec::new(), started: Instant::now(), tell };
         let samples = sweep.first().min(PASS);
+        // What only the first render of all pays is nobody's cost.
+        sweep.shoot(0, seed(plan.seed, "pilot", 0), samples)?;
         for way in 0..sweep.scenes.len() {
+            if way > 0 && sweep.left() < (1.0 - PILOT) * plan.time.as_secs_f64() {
+                sweep.scenes.truncate(way);
+                break;
+            }
             let shot = sweep.shoot(way, seed(plan.seed, "pilot", 0), samples)?;
             sweep.costs.push(cost(&shot, samples));
         }
@@ -119,9 +134,20 @@ impl<'a> Sweep<'a> {
         self.plan.time.as_secs_f64() - self.started.elapsed().as_secs_f64()
     }
 
-    /// Drops ways from the end until the fewest samples are expected to fit; the usual one stays.
+    /// Drops ways from the end: combinations until the first counts are expected to fit, others until the fewest samples are; the usual
+    /// one stays.
     fn shorten(&mut self) {
-        while self.scenes.len() > 1 && self.level(self.first()) + self.least_reference(self.first()) > self.left() {
+        let counts = self.plan.counts;
+        self.shorten_to(self.plan.singles, &counts[..GOAL.min(counts.len())]);
+        self.shorten_to(1, &counts[..1]);
+    }
+
+    fn shorten_to(&mut self, least: usize, counts: &[u32]) {
+        let most = counts.last().copied().unwrap_or(0);
+        let needed = |sweep: &Self| {
+            counts.iter().map(|&samples| sweep.level(samples)).sum::<f64>() + sweep.least_reference(most)
+        };
+        while self.scenes.len() > least && needed(self) > self.left() {
             self.scenes.pop();
             self.costs.pop();
         }

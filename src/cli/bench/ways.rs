@@ -1,4 +1,4 @@
-//! The ways to render that are tried: the usual one, and the usual one with one thing changed.
+//! The ways to render that are tried: the usual one, the usual one with one thing changed, and on demand with several.
 
 use super::BenchArgs;
 use crate::fresnel::{FresnelModel, RgbModel, SpectralModel};
@@ -14,11 +14,11 @@ pub const DEFAULT_MODELS: &[FresnelModel] = &[
 ];
 pub const DEFAULT_LANES: &[u32] = &[4, 1];
 pub const DEFAULT_SAMPLERS: &[SamplerName] = &[SamplerName::Independent];
+pub const DEFAULT_DISPERSION: &[bool] = &[false];
 
 /// One way to render.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Way {
-    change: Change,
     model: FresnelModel,
     lanes: u32,
     sampler: SamplerName,
@@ -26,17 +26,31 @@ pub struct Way {
 }
 
 impl Way {
-    pub const USUAL: Self = Self {
-        change: Change::Nothing,
-        model: FresnelModel::EXACT,
-        lanes: LANES as u32,
-        sampler: SamplerName::Sobol,
-        dispersion: true,
-    };
+    pub const USUAL: Self =
+        Self { model: FresnelModel::EXACT, lanes: LANES as u32, sampler: SamplerName::Sobol, dispersion: true };
 
+    /// What is not as usual.
+    pub fn changes(&self) -> Vec<Change> {
+        let usual = Self::USUAL;
+        let all = [
+            (self.model != usual.model, Change::Model),
+            (self.lanes != usual.lanes, Change::Lanes),
+            (self.sampler != usual.sampler, Change::Sampler),
+            (self.dispersion != usual.dispersion, Change::Dispersion),
+        ];
+        all.into_iter().filter(|(changed, _)| *changed).map(|(_, change)| change).collect()
+    }
+
+    /// Made of what is not as usual.
     pub fn label(&self) -> String {
-        match self.change {
-            Change::Nothing => format!("{}, {} lanes, {}", self.model, self.lanes, sampler_name(self.sampler)),
+        let changes = self.changes();
+        let all = [Change::Model, Change::Lanes, Change::Sampler];
+        let named = if changes.is_empty() { &all[..] } else { &changes };
+        named.iter().map(|change| self.part(*change)).collect::<Vec<_>>().join(", ")
+    }
+
+    fn part(&self, change: Change) -> String {
+        match change {
             Change::Model => self.model.name().into(),
             Change::Lanes if self.lanes == 1 => "1 lane".into(),
             Change::Lanes => format!("{} lanes", self.lanes),
@@ -49,7 +63,7 @@ impl Way {
     pub fn described(&self) -> bench::Way {
         bench::Way {
             label: self.label(),
-            change: self.change,
+            changes: self.changes(),
             model: self.model.name().into(),
             lanes: self.lanes,
             sampler: sampler_name(self.sampler).into(),
@@ -73,21 +87,29 @@ impl Way {
     }
 }
 
-/// The usual way, then what the options name, or what there is to see if they name nothing.
+/// The usual way, then what the options name, or what there is to see if they name nothing: what changes fewer things goes first, for
+/// its numbers say more by themselves.
 pub fn ways(args: &BenchArgs) -> Result<Vec<Way>, SceneError> {
-    let models = named("models", &args.models, DEFAULT_MODELS)?;
-    let lanes = named("lanes", &args.lanes, DEFAULT_LANES)?;
-    let samplers = named("samplers", &args.samplers, DEFAULT_SAMPLERS)?;
     let usual = Way::USUAL;
-    let models = models.iter().map(|&model| Way { change: Change::Model, model, ..usual });
-    let lanes = lanes.iter().map(|&lanes| Way { change: Change::Lanes, lanes, ..usual });
-    let samplers = samplers.iter().map(|&sampler| Way { change: Change::Sampler, sampler, ..usual });
-    let flat = [false].iter().filter(|_| !args.keep_dispersion);
-    let flat = flat.map(|&dispersion| Way { change: Change::Dispersion, dispersion, ..usual });
-    let changed = models.chain(lanes).chain(samplers).chain(flat);
-    // What is usual is there already.
-    let is_usual = |way: &Way| Way { change: Change::Nothing, ..*way } == usual;
-    Ok(std::iter::once(usual).chain(changed.filter(|way| !is_usual(way))).collect())
+    let models = axis(usual.model, named("models", &args.models, DEFAULT_MODELS)?);
+    let lanes = axis(usual.lanes, named("lanes", &args.lanes, DEFAULT_LANES)?);
+    let samplers = axis(usual.sampler, named("samplers", &args.samplers, DEFAULT_SAMPLERS)?);
+    let dispersion = axis(usual.dispersion, named("dispersion", &args.dispersion, DEFAULT_DISPERSION)?);
+    // The last of these turns fastest.
+    let all = dispersion.iter().flat_map(|&dispersion| samplers.iter().map(move |&sampler| (dispersion, sampler)));
+    let all = all.flat_map(|(dispersion, sampler)| lanes.iter().map(move |&lanes| (dispersion, sampler, lanes)));
+    let all = all.flat_map(|(dispersion, sampler, lanes)| {
+        models.iter().map(move |&model| Way { model, lanes, sampler, dispersion })
+    });
+    let most = if args.product { usize::MAX } else { 1 };
+    let mut ways: Vec<Way> = all.filter(|way| way.changes().len() <= most).collect();
+    ways.sort_by_key(|way| way.changes().len());
+    Ok(ways)
+}
+
+/// The usual value and the others.
+fn axis<T: Copy + PartialEq>(usual: T, named: &[T]) -> Vec<T> {
+    std::iter::once(usual).chain(named.iter().copied().filter(|value| *value != usual)).collect()
 }
 
 /// What an option names, each once, or its default.
@@ -115,4 +137,13 @@ pub fn sampler(text: &str) -> Result<SamplerName, String> {
     let all = [SamplerName::Sobol, SamplerName::Independent];
     let found = all.into_iter().find(|&sampler| sampler_name(sampler) == text);
     found.ok_or_else(|| "a sampler is sobol or independent".into())
+}
+
+/// Whether an option's dispersion is on.
+pub fn switch(text: &str) -> Result<bool, String> {
+    match text {
+        "on" => Ok(true),
+        "off" => Ok(false),
+        _ => Err("dispersion is on or off".into()),
+    }
 }

@@ -9,6 +9,9 @@ type Measure = (&'static str, fn(&Run) -> f64);
 
 const MEASURES: [Measure; 2] = [("MSE", |run| run.mse), ("mean ΔE2000", |run| run.delta_e2000)];
 
+/// Of what only the table names.
+const FAINT: Ink = Ink::new(0xc4c4c4, 0x565656);
+
 /// Under everything.
 const FRONT: Ink = Ink::new(0xd9d2b4, 0x57502f);
 
@@ -17,20 +20,24 @@ pub fn figure(bench: &Bench) -> Figure {
     let labels = labels(bench);
     let panels = bench.scenes.iter().flat_map(|scene| MEASURES.map(|measure| panel(scene, measure, &labels)));
     let curves = labels.iter().enumerate().map(|(n, label)| Key { label: (*label).into(), style: style(n) });
+    let named = |variant: &Variant| labels.contains(&variant.way.label.as_str());
+    let others = !bench.scenes.iter().flat_map(|scene| &scene.variants).all(named);
+    let others = others.then(|| Key { label: "other ways that change several things".into(), style: faint_style() });
     let front = Key { label: "front: least error for its time".into(), style: front_style() };
     Figure {
         title: "Speed against error".into(),
         description: "Error of renders against the processor time that they took, for every way to render".into(),
         panels: panels.collect(),
         columns: MEASURES.len(),
-        legend: curves.chain([front]).collect(),
+        legend: curves.chain(others).chain([front]).collect(),
     }
 }
 
-/// Every variant's name once.
+/// The name of every variant that has a curve of its own, once: of those that change several things, what is on a front.
 fn labels(bench: &Bench) -> Vec<&str> {
     let mut labels: Vec<&str> = Vec::new();
-    for variant in bench.scenes.iter().flat_map(|scene| &scene.variants) {
+    let own = |variant: &&Variant| !variant.way.changes_several() || variant.on_front();
+    for variant in bench.scenes.iter().flat_map(|scene| &scene.variants).filter(own) {
         if !labels.contains(&variant.way.label.as_str()) {
             labels.push(&variant.way.label);
         }
@@ -47,6 +54,10 @@ fn style(n: usize) -> Style {
     }
 }
 
+fn faint_style() -> Style {
+    Style::new(FAINT).width(1.0)
+}
+
 fn front_style() -> Style {
     Style::new(FRONT).width(9.0).dash(Dash::Solid)
 }
@@ -57,8 +68,8 @@ fn panel(scene: &Scene, (name, of): Measure, labels: &[&str]) -> Panel {
     let axis = |label: &str, i: usize| Axis::logarithmic(label, all.iter().map(|point| point[i]));
     let front = Series { points: front(&all), style: front_style() };
     let curve = |variant: &Variant| {
-        let n = labels.iter().position(|label| *label == variant.way.label).unwrap_or(0);
-        Series { points: points(variant), style: style(n) }
+        let n = labels.iter().position(|label| *label == variant.way.label);
+        Series { points: points(variant), style: n.map_or_else(faint_style, style) }
     };
     // The usual one is drawn last, over the others.
     let curves = scene.variants.iter().rev().map(curve);

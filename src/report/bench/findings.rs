@@ -1,14 +1,33 @@
 //! What the numbers of a scene say, in sentences.
 
-use super::{Bias, Change, Run, Scene, Variant};
+use super::{Bias, Change, Run, Scene, Variant, Way};
 use crate::report::Verdict;
 use crate::report::comparison::short;
 
-/// The usual variant first, then each of the others, then what limits them.
+/// The usual variant first, then each of the others that has a sentence of its own, then the best and what limits them.
 pub fn findings(scene: &Scene) -> Vec<String> {
     let Some((usual, others)) = scene.usual() else { return Vec::new() };
-    let others = others.iter().map(|variant| other(usual, variant));
-    start(usual).into_iter().chain(others).chain(near(scene)).collect()
+    let told = others.iter().filter(|variant| !variant.way.changes_several() || variant.on_front());
+    let told = told.map(|variant| other(usual, variant));
+    start(usual).into_iter().chain(told).chain(several(usual, others)).chain(near(scene)).collect()
+}
+
+/// Of combinations only those on the front have sentences: what comes of all of them together.
+fn several(usual: &Variant, others: &[Variant]) -> Option<String> {
+    let all: Vec<_> = others.iter().filter(|variant| variant.way.changes_several()).collect();
+    let best = others.iter().filter_map(|variant| Some((variant, last_runs(usual, variant)?)));
+    let best = best.max_by(|(_, (_, a)), (_, (_, b))| a.efficiency.total_cmp(&b.efficiency));
+    let (variant, (old, new)) = best.filter(|_| !all.is_empty())?;
+    let front = all.iter().filter(|variant| variant.on_front()).count();
+    Some(format!(
+        "Of {} ways that change several things at once {front} {} on the front. Of all others than the usual way, `{}` is the most efficient with {} \
+         samples a pixel: {} × as efficient as the usual way.",
+        all.len(),
+        if front == 1 { "is" } else { "are" },
+        variant.way.label,
+        new.samples,
+        times(new.efficiency / old.efficiency)
+    ))
 }
 
 fn start(usual: &Variant) -> Option<String> {
@@ -25,10 +44,10 @@ fn start(usual: &Variant) -> Option<String> {
 }
 
 fn other(usual: &Variant, variant: &Variant) -> String {
-    let plural = variant.way.change == Change::Lanes && variant.way.lanes > 1 || variant.way.change == Change::Sampler;
+    let plural = is_plural(&variant.way);
     let mut parts = vec![time(variant, plural)];
     parts.extend(variant.bias.as_ref().and_then(|bias| bias_of(variant, bias, plural)));
-    if matches!(variant.way.change, Change::Lanes | Change::Sampler) {
+    if variant.way.changes_any(&[Change::Lanes, Change::Sampler]) {
         parts.extend(noise(usual, variant, plural));
     }
     let last = parts.pop().unwrap_or_default();
@@ -36,10 +55,26 @@ fn other(usual: &Variant, variant: &Variant) -> String {
     format!("{} {before}{last}.", subject(usual, variant))
 }
 
+/// Whether what is changed is more than one thing, in grammar.
+fn is_plural(way: &Way) -> bool {
+    match way.changes.as_slice() {
+        [Change::Lanes] => way.lanes > 1,
+        [one] => *one == Change::Sampler,
+        _ => true,
+    }
+}
+
 fn subject(usual: &Variant, variant: &Variant) -> String {
-    let (old, new) = (&usual.way, &variant.way);
-    match new.change {
-        Change::Nothing | Change::Model => format!("{} instead of {}", new.model, old.model),
+    let all: Vec<_> = variant.way.changes.iter().map(|change| changed(*change, &usual.way, &variant.way)).collect();
+    match all.split_last() {
+        Some((last, before)) if !before.is_empty() => format!("{} and {last}", before.join(", ")),
+        _ => all.concat(),
+    }
+}
+
+fn changed(change: Change, old: &Way, new: &Way) -> String {
+    match change {
+        Change::Model => format!("{} instead of {}", new.model, old.model),
         Change::Lanes if new.lanes == 1 => format!("1 lane instead of {}", old.lanes),
         Change::Lanes => format!("{} lanes instead of {}", new.lanes, old.lanes),
         Change::Sampler => format!("{} samples instead of {}", new.sampler, old.sampler),
@@ -140,13 +175,13 @@ fn near(scene: &Scene) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Ratio, Way};
+    use super::super::Ratio;
     use super::*;
 
-    fn variant(change: Change, time: [f64; 3], verdict: Verdict) -> Variant {
+    fn variant(changes: &[Change], time: [f64; 3], verdict: Verdict) -> Variant {
         let way = Way {
             label: "f82".into(),
-            change,
+            changes: changes.to_vec(),
             model: "f82".into(),
             lanes: 4,
             sampler: "sobol".into(),
@@ -159,21 +194,25 @@ mod tests {
 
     #[test]
     fn sentences_say_what_the_numbers_do() {
-        let mut usual = variant(Change::Nothing, [1.0; 3], Verdict::Indistinguishable);
+        let mut usual = variant(&[], [1.0; 3], Verdict::Indistinguishable);
         usual.way = Way { model: "exact".into(), lanes: 8, ..usual.way };
-        let said = |change, time, verdict| other(&usual, &variant(change, time, verdict));
+        let said = |changes: &[Change], time, verdict| other(&usual, &variant(changes, time, verdict));
         assert_eq!(
-            said(Change::Model, [0.99, 0.985, 0.996], Verdict::Different),
+            said(&[Change::Model], [0.99, 0.985, 0.996], Verdict::Different),
             "f82 instead of exact saves 1.0 % of the time (95 %: 0.4 … 1.5 %) and costs ΔE 2.10 (95 %: 2.00 … 2.25)."
         );
         assert_eq!(
-            said(Change::Model, [1.01, 0.99, 1.02], Verdict::Indistinguishable),
+            said(&[Change::Model], [1.01, 0.99, 1.02], Verdict::Indistinguishable),
             "f82 instead of exact takes as long, to what timing can tell (95 %: −1.0 … +2.0 %) and changes nothing beyond noise (ΔE at most 2.25)."
         );
         assert_eq!(
-            said(Change::Lanes, [1.5, 1.4, 1.6], Verdict::Indistinguishable),
+            said(&[Change::Lanes], [1.5, 1.4, 1.6], Verdict::Indistinguishable),
             "4 lanes instead of 8 take 50 % more time (95 %: 40 … 60 %)."
         );
-        assert!(said(Change::Dispersion, [1.5; 3], Verdict::Identical).ends_with("changes not one sample."));
+        assert!(said(&[Change::Dispersion], [1.5; 3], Verdict::Identical).ends_with("changes not one sample."));
+        assert_eq!(
+            said(&[Change::Model, Change::Lanes, Change::Dispersion], [1.5, 1.4, 1.6], Verdict::Different),
+            "f82 instead of exact, 4 lanes instead of 8 and leaving dispersion out take 50 % more time (95 %: 40 … 60 %) and cost ΔE 2.10 (95 %: 2.00 … 2.25)."
+        );
     }
 }

@@ -29,10 +29,12 @@ pub fn page(bench: &Bench, pictures: &[Vec<u8>]) -> Result<String, PageError> {
 
 fn lead(bench: &Bench) -> String {
     let scenes: Vec<_> = bench.scenes.iter().map(|scene| format!("<b>{}</b>", markup::html(&scene.name))).collect();
+    let several = bench.scenes.iter().flat_map(|scene| &scene.variants).any(|variant| variant.way.changes_several());
     format!(
         "What a render costs and how far it is from the truth, for one way to render after the other. Scenes: {}. \
-         Each way differs from the usual one in one thing; each was rendered {} times at every count of samples.",
+         Each way differs from the usual one in {}; each was rendered {} times at every count of samples.",
         scenes.join(", "),
+        if several { "one thing or several" } else { "one thing" },
         bench.repeats
     )
 }

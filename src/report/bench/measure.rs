@@ -2,7 +2,7 @@
 
 use super::error::{Error, common_square, error, noise};
 use super::ratio::median;
-use super::{Bias, CLEAR, Change, Ratio, Reference, Run, Variant, Way, findings, pareto};
+use super::{Bias, CLEAR, Ratio, Reference, Run, Variant, Way, findings, pareto};
 use crate::report::View;
 use crate::report::difference::{self, Compared, Image, compare, merged};
 
@@ -109,10 +109,10 @@ pub fn measure(view: &View, standard: &Standard, all: &[Measured], scale: Scale)
     let (reference, image) = (standard.reference(view, usual), standard.image());
     let of = |measured: &Measured| Variant {
         way: measured.way.clone(),
-        time: (measured.way.change != Change::Nothing).then(|| time(measured, usual)).flatten(),
-        bias: match measured.way.change {
-            Change::Nothing => standard.bias(view, usual),
-            _ => most(usual).zip(most(measured)).map(|(a, b)| bias(&compare(view, &a.images, &b.images))),
+        time: (!measured.way.is_usual()).then(|| time(measured, usual)).flatten(),
+        bias: match measured.way.is_usual() {
+            true => standard.bias(view, usual),
+            false => most(usual).zip(most(measured)).map(|(a, b)| bias(&compare(view, &a.images, &b.images))),
         },
         runs: runs(view, &image, &reference, measured, scale),
     };

@@ -1,7 +1,7 @@
 //! Speed against error: what renders of a scene cost, how far they are from a reference, and which of them are worth it.
 //!
 //! A *variant* is a way to render: the usual one (exact Fresnel, eight lanes, Sobol points, dispersion) or the usual one with one thing
-//! changed. Each is rendered a few times with equal seeds in all variants, at several samples a pixel. Of every count:
+//! changed, or several. Each is rendered a few times with equal seeds in all variants, at several samples a pixel. Of every count:
 //!
 //! - time: the median of the renders, of all threads together (processor) and on the clock (wall);
 //! - error from the reference, as it is displayed, nothing subtracted ([`error`]): MSE and relMSE of linear sRGB, the mean of (x − r)² and
@@ -102,11 +102,10 @@ pub struct Reference {
     pub delta_e2000: Option<f64>,
 }
 
-/// In what a variant differs from the usual one.
+/// In what a way differs from the usual one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Change {
-    Nothing,
     Model,
     Lanes,
     Sampler,
@@ -116,8 +115,10 @@ pub enum Change {
 /// A way to render.
 #[derive(Clone, Debug, Serialize)]
 pub struct Way {
+    /// What is changed, or all of the usual one.
     pub label: String,
-    pub change: Change,
+    /// From the usual one; nothing for that one.
+    pub changes: Vec<Change>,
     /// Fresnel model.
     pub model: String,
     /// Wavelengths a path.
@@ -181,10 +182,31 @@ impl Bench {
     }
 }
 
+impl Way {
+    pub fn is_usual(&self) -> bool {
+        self.changes.is_empty()
+    }
+
+    /// Whether it differs from the usual one in more than one thing.
+    pub fn changes_several(&self) -> bool {
+        self.changes.len() > 1
+    }
+
+    /// Whether it differs in one of these.
+    pub fn changes_any(&self, of: &[Change]) -> bool {
+        self.changes.iter().any(|change| of.contains(change))
+    }
+}
+
 impl Variant {
     /// Whether it changes what is rendered, and not only how.
     pub fn may_be_biased(&self) -> bool {
-        matches!(self.way.change, Change::Model | Change::Dispersion)
+        self.way.changes_any(&[Change::Model, Change::Dispersion])
+    }
+
+    /// Whether nothing beats some of its runs.
+    pub fn on_front(&self) -> bool {
+        self.runs.iter().any(|run| run.pareto)
     }
 
     /// Its bias as a table shows it; a bound where there may be one that noise hides, nothing where none is looked for.
