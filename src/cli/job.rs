@@ -12,10 +12,11 @@ use crate::fresnel::FresnelModel;
 use crate::image::{self, Encoded, Extra, Metadata};
 use crate::render::{Kernel, PASS, render_layers};
 use crate::scene::describe::{ExposureValue, GamutName};
-use crate::scene::{Needs, Scene, SceneError};
+use crate::scene::{Decision, Needs, Scene, SceneError};
 use crate::spectrum::RgbSpace;
 use std::ffi::OsStr;
 use std::fs;
+use std::iter::{once, repeat};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -85,6 +86,7 @@ impl Job<'_> {
         }
         if !quiet && interrupt.pressed() == interrupt.stopped() {
             summary(layers.film(), started);
+            left_out(&needs);
         }
         Ok(layers)
     }
@@ -166,6 +168,15 @@ fn tell(reached: &Reached, quiet: bool) {
         show::warning(format_args!("stopped before the error was small enough: {reached}"));
     } else if !quiet {
         show::note(reached);
+    }
+}
+
+/// What the render did without, and why.
+fn left_out(needs: &Needs) {
+    for (Decision { part, reason, .. }, first) in
+        needs.decisions.iter().filter(|d| !d.used).zip(once("left out").chain(repeat("")))
+    {
+        show::note(format_args!("{first:<8}  {part:<18}  {reason}"));
     }
 }
 

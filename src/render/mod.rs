@@ -14,17 +14,19 @@ pub mod rays;
 mod rough;
 mod scatter;
 mod stone;
+mod tracer;
 mod visible;
 
 pub use features::{Guides, Seen};
 pub use layers::{Recorder, render_layers, render_planned};
+pub use tracer::COMPILED;
 pub use visible::{FirstHit, first_hits};
 
 use crate::film::{Film, Pixel};
 use crate::geometry::Ray;
 use crate::sampler::{self, PixelSamples, Sampler};
 use crate::scene::describe::SamplerName;
-use crate::scene::{Needs, Scene};
+use crate::scene::{Needs, Physics, Scene};
 use crate::spectrum::{Lanes, Nodes, SpectrumId, Tables};
 use media::MediaStack;
 use models::RgbCurves;
@@ -32,6 +34,7 @@ use path::Path;
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
+use tracer::Tracer;
 
 /// Samples a pixel gets before the next pass over the picture.
 pub const PASS: u32 = 16;
@@ -50,6 +53,8 @@ impl Progress for () {
 pub struct Kernel<'a> {
     scene: &'a Scene,
     needs: &'a Needs,
+    /// Of [`COMPILED`], what the kernel runs.
+    physics: Physics,
     tables: Tables,
     /// X, Y and Z in cd/m² per spectral radiance.
     observer: [SpectrumId; 3],
@@ -67,6 +72,7 @@ struct Traced<const N: usize> {
 }
 
 impl<'a> Kernel<'a> {
+    /// The smallest of the compiled kernels that does what the scene needs.
     pub fn new(scene: &'a Scene, needs: &'a Needs) -> Self {
         let nodes = Nodes::new(&needs.wavelength_density);
         let mut tables = scene.spectra.tabulate(&nodes, scene.settings.lanes as usize);
@@ -83,6 +89,7 @@ impl<'a> Kernel<'a> {
         Self {
             scene,
             needs,
+            physics: tracer::smallest(needs.physics),
             tables,
             observer,
             around_camera,
@@ -92,11 +99,22 @@ impl<'a> Kernel<'a> {
         }
     }
 
+    /// With another of the compiled kernels, if it does what the scene needs: the same picture at another price.
+    pub fn compiled_for(self, physics: Physics) -> Self {
+        let physics = if physics.contains(self.needs.physics) { tracer::smallest(physics) } else { self.physics };
+        Self { physics, ..self }
+    }
+
+    /// What the kernel was compiled for.
+    pub fn physics(&self) -> Physics {
+        self.physics
+    }
+
     /// One sample of one pixel.
     #[inline]
     fn trace<const N: usize>(&self, pixel: [u32; 2], mut sampler: Sampler) -> Traced<N> {
-        let offset = sampler.set(self.tables.sets()) * N as u32;
         let [dx, dy] = self.scene.filter.sample(sampler.uniform_2d());
+        let offset = sampler.set(self.tables.sets()) * N as u32;
         let [x, y] = [pixel[0] as f32 + 0.5 + dx, pixel[1] as f32 + 0.5 + dy];
         let ray = self.scene.camera.ray(x, y, || sampler.uniform_2d());
         let path = Path::<N>::new(ray, offset, self.around_camera);
@@ -106,7 +124,9 @@ impl<'a> Kernel<'a> {
     /// XYZ of a sample in cd/m².
     #[inline]
     fn xyz<const N: usize>(&self, traced: &Traced<N>) -> [f32; 3] {
-        self.observer.map(|weights| (traced.radiance * self.tables.get(weights, traced.offset)).sum())
+        let [x, y, z] = self.observer;
+        let weighted = |weights| (traced.radiance * self.tables.get(weights, traced.offset)).sum();
+        [weighted(x), weighted(y), weighted(z)]
     }
 
     fn samples(&self, pixel: [u32; 2]) -> PixelSamples {

@@ -3,11 +3,11 @@
 //! Spectral models are made of the indices at each hit. RGB models are fitted once to each interface that a path meets: fits take
 //! milliseconds, and most pairs of media never touch.
 
-use super::Kernel;
+use super::Tracer;
 use crate::fresnel::{
     DielectricFresnel, Fresnel, FresnelModel, RgbCurve, RgbFresnel, RgbModel, Specimen, SpectralModel, Target,
 };
-use crate::scene::{MediumId, RgbColors, Scene};
+use crate::scene::{MediumId, Physics, RgbColors, Scene};
 use crate::spectrum::SpectrumId;
 use std::collections::HashMap;
 use std::sync::{OnceLock, PoisonError, RwLock};
@@ -46,7 +46,7 @@ impl<'a> RgbCurves<'a> {
     }
 }
 
-impl Kernel<'_> {
+impl<const P: u32> Tracer<'_, P> {
     /// The reflectance of a metal of these indices, `surface` of the scene, seen from a medium.
     #[inline]
     pub fn metal<const N: usize>(
@@ -58,6 +58,7 @@ impl Kernel<'_> {
         offset: u32,
     ) -> Fresnel<N> {
         let spectral = match (model, &self.rgb) {
+            _ if !Self::runs(Physics::APPROXIMATIONS) => SpectralModel::Exact,
             (FresnelModel::Rgb(model), Some(curves)) => {
                 return Fresnel::Rgb(self.on_lanes(curves.metal(model, surface, index, medium), curves, offset));
             }
@@ -78,6 +79,7 @@ impl Kernel<'_> {
         offset: u32,
     ) -> DielectricFresnel<N> {
         match (model, &self.rgb) {
+            _ if !Self::runs(Physics::APPROXIMATIONS) => DielectricFresnel::Spectral(SpectralModel::Exact),
             (FresnelModel::Rgb(model), Some(curves)) => {
                 DielectricFresnel::Rgb(self.on_lanes(curves.boundary(model, from, to), curves, offset))
             }

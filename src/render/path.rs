@@ -7,12 +7,12 @@
 
 use super::media::MediaStack;
 use super::scatter::power_heuristic;
-use super::{Kernel, rays};
+use super::{Tracer, rays};
 use crate::bsdf::Bsdf;
 use crate::geometry::{Hit, Ray};
 use crate::light::Receiver;
 use crate::sampler::Sampler;
-use crate::scene::{MediumId, Surface};
+use crate::scene::{MediumId, Physics, Surface};
 use crate::spectrum::Lanes;
 use glam::Vec3;
 
@@ -83,7 +83,7 @@ pub enum Outcome {
     Ended,
 }
 
-impl Kernel<'_> {
+impl<const P: u32> Tracer<'_, P> {
     /// Spectral radiance (W m⁻² sr⁻¹ nm⁻¹) that arrives along a path's ray, a lane each.
     pub fn radiance<const N: usize>(&self, mut path: Path<N>, sampler: &mut Sampler) -> Lanes<N> {
         let (mut radiance, mut traced) = (Lanes::ZERO, 0);
@@ -94,7 +94,7 @@ impl Kernel<'_> {
                 radiance += self.environment(&path);
                 break;
             };
-            path.throughput *= self.transmittance(path.media.current(), hit.t, path.offset);
+            path.throughput *= self.transmittance(self.medium(&path), hit.t, path.offset);
             radiance += self.emission(&path, &hit);
             // The last interaction is followed by a ray that only looks for light, the other half of its estimate.
             if path.depth >= self.max_depth {
@@ -104,18 +104,20 @@ impl Kernel<'_> {
             let outcome = match self.surface(&hit) {
                 Surface::Black => Outcome::Ended,
                 Surface::Diffuse { reflectance } => {
-                    let bsdf = Bsdf::Diffuse { reflectance: self.reflectance(reflectance, &hit, path.offset) };
+                    let bsdf = Bsdf::Diffuse { reflectance: self.reflectance(*reflectance, &hit, path.offset) };
                     self.scatter(&bsdf, &mut path, &hit, sampler, &mut radiance)
                 }
                 Surface::Conductor { n, k, alpha, model } => {
                     let surface = self.scene.object(hit.shape).surface;
-                    let fresnel = self.metal(model, surface, [n, k], path.media.current(), path.offset);
-                    let bsdf = Bsdf::Conductor { fresnel, alpha };
+                    let fresnel = self.metal(*model, surface, [*n, *k], self.medium(&path), path.offset);
+                    let bsdf = Bsdf::Conductor { fresnel, alpha: self.alpha_of_metal(*alpha, &hit) };
                     self.scatter(&bsdf, &mut path, &hit, sampler, &mut radiance)
                 }
-                Surface::Dielectric(interface) => {
+                Surface::Dielectric(interface) if Self::runs(Physics::CLEAR_MEDIA) => {
+                    let interface = self.boundary_at(interface, &hit);
                     self.interface(&interface, &mut path, (&hit, &also), sampler, &mut radiance)
                 }
+                Surface::Dielectric(_) => Outcome::Ended,
             };
             if matches!(outcome, Outcome::Ended) || !path.survives(sampler) {
                 break;
@@ -147,9 +149,8 @@ impl Kernel<'_> {
     fn emission<const N: usize>(&self, path: &Path<N>, hit: &Hit) -> Lanes<N> {
         let lights = &self.scene.lights;
         let Some(radiance) = lights.emitted(hit) else { return Lanes::ZERO };
-        let emitted = path.throughput
-            * self.tables.get(radiance, path.offset)
-            * self.compression(path.media.current(), path.offset);
+        let emitted =
+            path.throughput * self.tables.get(radiance, path.offset) * self.compression(self.medium(path), path.offset);
         if path.pdf == f32::INFINITY {
             return emitted;
         }
@@ -161,8 +162,11 @@ impl Kernel<'_> {
     /// What a light's radiance is divided by on its way out to the camera: radiance over n² is what refraction keeps
     /// (Nicodemus 1963), so a light inside glass looks n² times dimmer from outside. Counted where light joins the path,
     /// it needs no state and leaves the throughput that roulette looks at alone.
-    #[inline]
+    #[inline(always)]
     pub fn compression<const N: usize>(&self, medium: MediumId, offset: u32) -> Lanes<N> {
+        if !Self::runs(Physics::CLEAR_MEDIA) {
+            return Lanes::ONE;
+        }
         let seen_from = self.around_camera.current();
         if medium == seen_from {
             return Lanes::ONE;
@@ -172,15 +176,22 @@ impl Kernel<'_> {
     }
 
     /// Share of light that a medium lets through over a length (Beer–Lambert).
-    #[inline]
+    #[inline(always)]
     pub fn transmittance<const N: usize>(&self, medium: MediumId, length: f32, offset: u32) -> Lanes<N> {
-        match self.scene.medium(medium).absorption {
+        let absorption = if self.needs(Physics::ABSORPTION) { self.scene.medium(medium).absorption } else { None };
+        match absorption {
             None => Lanes::ONE,
             Some(absorption) => self.tables.get::<N>(absorption, offset).map(|alpha| {
                 let optical_depth = if alpha > 0.0 { alpha * length } else { 0.0 };
                 libm::expf(-optical_depth)
             }),
         }
+    }
+
+    /// The medium that a path is in.
+    #[inline]
+    pub fn medium<const N: usize>(&self, path: &Path<N>) -> MediumId {
+        if Self::runs(Physics::CLEAR_MEDIA) { path.media.current() } else { MediumId::OUTSIDE }
     }
 
     /// Index of refraction of a medium.

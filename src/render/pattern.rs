@@ -1,35 +1,49 @@
 //! A surface as it is where a path meets it: pictures in place of what is said of it as a whole.
 
-use super::Kernel;
+use super::Tracer;
 use crate::geometry::Hit;
-use crate::scene::{Interface, Pattern, Surface};
+use crate::scene::{Interface, Pattern, Physics, Surface};
 use crate::spectrum::{Lanes, SpectrumId};
 use crate::texture::Texels;
 use glam::Vec2;
 
-impl Kernel<'_> {
-    /// What light meets at a hit.
+impl<const P: u32> Tracer<'_, P> {
+    /// What light meets at a hit, but for what pictures say of it.
     #[inline]
-    pub fn surface(&self, hit: &Hit) -> Surface {
-        let surface = self.scene.surfaces[self.scene.object(hit.shape).surface as usize];
-        if self.needs.textures { self.patterned(surface, hit) } else { surface }
+    pub fn surface(&self, hit: &Hit) -> &Surface {
+        &self.scene.surfaces[self.scene.object(hit.shape).surface as usize]
+    }
+
+    /// Roughness α at a hit of what is so rough as a whole.
+    ///
+    /// Plain numbers go in and out, so that a scene without pictures pays for one test: a whole surface handed on took 2 % of the
+    /// instructions of a sample of metals.
+    #[inline]
+    pub fn alpha(&self, whole: f32, hit: &Hit) -> f32 {
+        if self.needs(Physics::TEXTURES) { self.printed_alpha(whole, hit) } else { whole }
+    }
+
+    #[inline]
+    pub fn alpha_of_metal(&self, whole: f32, hit: &Hit) -> f32 {
+        if Self::runs(Physics::ROUGH_METAL) { self.alpha(whole, hit) } else { 0.0 }
     }
 
     /// Reflectance at a hit of what reflects so as a whole.
     #[inline]
     pub fn reflectance<const N: usize>(&self, whole: SpectrumId, hit: &Hit, offset: u32) -> Lanes<N> {
-        if self.needs.textures { self.printed(whole, hit, offset) } else { self.tables.get(whole, offset) }
+        if self.needs(Physics::TEXTURES) { self.printed(whole, hit, offset) } else { self.tables.get(whole, offset) }
+    }
+
+    /// A clear boundary as it is at a hit.
+    #[inline]
+    pub fn boundary_at(&self, interface: &Interface, hit: &Hit) -> Interface {
+        Interface { alpha: self.alpha(interface.alpha, hit), ..*interface }
     }
 
     #[inline(never)]
-    fn patterned(&self, surface: Surface, hit: &Hit) -> Surface {
-        let Some(alphas) = self.pattern(hit).and_then(|pattern| pattern.alpha.as_ref()) else { return surface };
-        let alpha = self.value(alphas, hit);
-        match surface {
-            Surface::Conductor { n, k, model, .. } => Surface::Conductor { n, k, alpha, model },
-            Surface::Dielectric(interface) => Surface::Dielectric(Interface { alpha, ..interface }),
-            other => other,
-        }
+    fn printed_alpha(&self, whole: f32, hit: &Hit) -> f32 {
+        let alphas = self.pattern(hit).and_then(|pattern| pattern.alpha.as_ref());
+        alphas.map_or(whole, |alphas| self.value(alphas, hit))
     }
 
     #[inline(never)]

@@ -3,7 +3,7 @@
 //! All lanes go one way, whatever the index does (`bsdf::rough_dielectric`): nothing parts here, and a lane that has parted
 //! elsewhere goes on alone with a density of its own.
 
-use super::Kernel;
+use super::Tracer;
 use super::media::MediaStack;
 use super::path::{Outcome, Path};
 use super::scatter::weight;
@@ -11,7 +11,7 @@ use crate::bsdf::{Frame, RoughDielectric};
 use crate::geometry::{Hit, Ray, Side};
 use crate::light::Receiver;
 use crate::sampler::Sampler;
-use crate::scene::{Interface, MediumId};
+use crate::scene::{Interface, MediumId, Physics};
 use crate::spectrum::Lanes;
 use glam::Vec3;
 
@@ -28,8 +28,8 @@ pub struct Rough {
     pub far: Hit,
 }
 
-impl Kernel<'_> {
-    #[inline]
+impl<const P: u32> Tracer<'_, P> {
+    #[inline(never)]
     pub fn rough_interface<const N: usize>(
         &self,
         rough: &Rough,
@@ -44,7 +44,7 @@ impl Kernel<'_> {
         let (n1, n2) = (self.n(rough.from, path.offset), self.n(rough.to, path.offset));
         let fresnel = self.boundary(model, rough.from, rough.to, path.offset);
         let bsdf = RoughDielectric::new(fresnel, &n1, &n2, alpha);
-        if self.needs.light_sampling {
+        if self.needs(Physics::LIGHT_SAMPLING) {
             *radiance += path.throughput * self.direct_rough(&bsdf, rough, &frame, wo, path.offset, hit, sampler);
         }
         let (choice, u) = (sampler.uniform(), sampler.uniform_2d());

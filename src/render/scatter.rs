@@ -1,12 +1,12 @@
 //! A path at an opaque surface: light sampled directly, then a new direction.
 
 use super::path::{Outcome, Path};
-use super::{Kernel, rays};
+use super::{Tracer, rays};
 use crate::bsdf::{Bsdf, Frame};
 use crate::geometry::{Hit, Ray, Side};
 use crate::light::{LightSample, Receiver};
 use crate::sampler::Sampler;
-use crate::scene::MediumId;
+use crate::scene::{MediumId, Physics};
 use crate::spectrum::Lanes;
 use glam::Vec3;
 
@@ -44,9 +44,9 @@ fn terminator<const N: usize>(bsdf: &Bsdf<N>, hit: &Hit, shading: Vec3, wi: Vec3
     g * (1.0 + g * (1.0 - g))
 }
 
-impl Kernel<'_> {
+impl<const P: u32> Tracer<'_, P> {
     /// An opaque surface: light sampled directly, then a new direction.
-    #[inline]
+    #[inline(always)]
     pub fn scatter<const N: usize>(
         &self,
         bsdf: &Bsdf<N>,
@@ -57,10 +57,12 @@ impl Kernel<'_> {
     ) -> Outcome {
         let frame = Frame::new(hit.facing(-path.ray.direction));
         let wo = frame.to_local(-path.ray.direction);
-        if self.needs.light_sampling && !bsdf.is_delta() {
+        if self.needs(Physics::LIGHT_SAMPLING) && !bsdf.is_delta() {
             *radiance += path.throughput * self.direct(bsdf, &frame, wo, path, hit, sampler);
         }
-        let Some(sample) = bsdf.sample(wo, sampler.uniform_2d()) else { return Outcome::Ended };
+        // A mirror has nothing to choose; what is seen in it is chosen by the better numbers.
+        let u = if bsdf.is_delta() { [0.0; 2] } else { sampler.uniform_2d() };
+        let Some(sample) = bsdf.sample(wo, u) else { return Outcome::Ended };
         let direction = frame.to_world(sample.wi);
         path.throughput *= sample.weight * terminator(bsdf, hit, frame.z, direction);
         path.pdf = if sample.delta { f32::INFINITY } else { sample.pdf };
@@ -70,7 +72,7 @@ impl Kernel<'_> {
     }
 
     /// Light from one point of one light, reflected towards `wo`.
-    #[inline]
+    #[inline(always)]
     fn direct<const N: usize>(
         &self,
         bsdf: &Bsdf<N>,
@@ -93,7 +95,7 @@ impl Kernel<'_> {
         if value.pdf == 0.0 {
             return Lanes::ZERO;
         }
-        let arriving = self.arriving(&light, hit, hit.side, path.media.current(), path.offset);
+        let arriving = self.arriving(&light, hit, hit.side, self.medium(path), path.offset);
         let seen = terminator(bsdf, hit, frame.z, light.direction);
         value.f_cos * arriving * (seen * weight(&light, value.pdf))
     }

@@ -5,13 +5,13 @@
 //! (1−Rᵢ)/(1−p). The sum of the weights is kept at every choice, so that no lane's weight exceeds N; a lane beyond its
 //! critical angle leaves with weight 0. Facets are half-spaces, met without epsilon and without leaks.
 
-use super::Kernel;
+use super::Tracer;
 use super::path::Path;
 use crate::bsdf::dielectric::{reflect_lanes, refract_lanes};
 use crate::bsdf::{Directions, choose};
 use crate::geometry::{Hit, Points, Shape};
 use crate::sampler::Sampler;
-use crate::scene::{Interface, MediumId};
+use crate::scene::{Interface, MediumId, Physics};
 use crate::spectrum::Lanes;
 
 /// Where lanes enter a stone, already refracted.
@@ -29,7 +29,7 @@ pub struct Exits<const N: usize> {
     pub directions: Directions<N>,
 }
 
-impl Kernel<'_> {
+impl<const P: u32> Tracer<'_, P> {
     /// Follows a path's lanes inside a convex solid until they leave; `None` when the path ends inside.
     pub fn trace_stone<const N: usize>(
         &self,
@@ -70,6 +70,9 @@ impl Kernel<'_> {
     /// Absorption over a length of its own for each lane.
     #[inline]
     fn absorb_each<const N: usize>(&self, path: &mut Path<N>, medium: MediumId, lengths: &[f32; N]) {
+        if !self.needs(Physics::ABSORPTION) {
+            return;
+        }
         let Some(absorption) = self.scene.medium(medium).absorption else { return };
         let optical_depth = self.tables.get::<N>(absorption, path.offset) * Lanes(*lengths);
         path.throughput *= optical_depth.map(|depth| libm::expf(-depth));

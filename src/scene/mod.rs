@@ -7,6 +7,7 @@ mod lighting;
 mod needs;
 mod numbers;
 mod optics;
+mod physics;
 mod pictures;
 mod resolve;
 mod words;
@@ -14,6 +15,7 @@ mod words;
 pub use error::{Place, SceneError, Text};
 pub use needs::{Decision, Needs, listed};
 pub use optics::{Class, Optics, class_of, optics};
+pub use physics::Physics;
 pub use resolve::{Overrides, resolve};
 
 use crate::bsdf::conductor::MIRROR_ALPHA;

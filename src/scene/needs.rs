@@ -1,6 +1,6 @@
 //! Which physics a scene uses, and why: what it does not need is neither loaded nor run.
 
-use super::{Inside, Interface, MediumId, Object, Pattern, Scene, Surface, lighting};
+use super::{Inside, Interface, MediumId, Object, Pattern, Physics, Scene, Surface, lighting};
 use crate::bsdf::conductor::MIRROR_ALPHA;
 use crate::fresnel::FresnelModel;
 use crate::light::{Environment, FEW};
@@ -12,12 +12,10 @@ use serde::Serialize;
 pub struct Needs {
     /// How wavelengths are chosen.
     pub wavelength_density: Density,
-    /// Whether there are lights to aim at and surfaces that can be aimed from.
-    pub light_sampling: bool,
+    /// What a kernel must be able to do.
+    pub physics: Physics,
     /// Whether anything takes its colour from a picture.
     pub pictures: bool,
-    /// Whether surfaces change from place to place.
-    pub textures: bool,
     pub decisions: Vec<Decision>,
 }
 
@@ -46,18 +44,33 @@ impl Needs {
             light_tree(scene),
             environment(scene),
         ];
-        Self {
-            wavelength_density,
-            light_sampling: light_sampling(scene).used,
-            pictures: pictures(scene),
-            textures: !scene.patterns.is_empty(),
-            decisions,
-        }
+        Self { wavelength_density, physics: physics(scene), pictures: pictures(scene), decisions }
     }
 }
 
 fn decision(part: &'static str, used: bool, reason: impl Into<String>) -> Decision {
     Decision { part, used, reason: reason.into() }
+}
+
+fn physics(scene: &Scene) -> Physics {
+    let any = |holds: &dyn Fn(&Surface) -> bool| !objects_with(scene, holds).is_empty();
+    let varies = scene.patterns.values().any(|pattern| pattern.alpha.is_some());
+    let metal = |surface: &Surface| matches!(surface, Surface::Conductor { alpha, .. } if varies || *alpha > 0.0);
+    let glass = |surface: &Surface| matches!(surface, Surface::Dielectric(i) if varies || i.is_rough());
+    [
+        (Physics::LIGHT_SAMPLING, light_sampling(scene).used),
+        (Physics::ROUGH_METAL, any(&metal)),
+        (Physics::TEXTURES, textures(scene).used),
+        (Physics::APPROXIMATIONS, approximations(scene).used),
+        (Physics::CLEAR_MEDIA, any(&|surface| matches!(surface, Surface::Dielectric(_)))),
+        (Physics::ABSORPTION, absorption(scene).used),
+        (Physics::DISPERSION, dispersion(scene).used),
+        (Physics::CONTACT, contact(scene).used),
+        (Physics::ROUGH_GLASS, any(&glass)),
+    ]
+    .into_iter()
+    .filter_map(|(part, needed)| needed.then_some(part))
+    .collect()
 }
 
 /// Names of the objects for which something holds, for people.

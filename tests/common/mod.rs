@@ -28,12 +28,16 @@ pub fn scene(text: &str, overrides: &Overrides) -> Scene {
 
 /// All samples of a scene's crop window.
 pub fn film(scene: &Scene) -> Film {
+    let needs = Needs::of(scene);
+    film_by(&Kernel::new(scene, &needs), scene)
+}
+
+/// The same by a kernel of the scene.
+pub fn film_by(kernel: &Kernel, scene: &Scene) -> Film {
     let [x0, y0, x1, y1] = scene.settings.crop;
     let window = Window { x0, y0, width: x1 - x0, height: y1 - y0 };
     let mut film = Film::new([scene.settings.width, scene.settings.height], window).expect("a small film");
-    let needs = Needs::of(scene);
-    let kernel = Kernel::new(scene, &needs);
-    render(&kernel, &mut film, 0..u64::from(scene.settings.samples), &(), &AtomicBool::new(false));
+    render(kernel, &mut film, 0..u64::from(scene.settings.samples), &(), &AtomicBool::new(false));
     film
 }
 

@@ -7,7 +7,7 @@ use common::paper::{HEAD, check};
 use common::pictures::{hdr, write_exr, write_png};
 use common::{film, mean, replicates, scene};
 use png::{BitDepth, ColorType};
-use spectrel::scene::{Needs, Overrides};
+use spectrel::scene::{Needs, Overrides, Physics};
 use std::path::PathBuf;
 use tempfile::TempDir;
 
@@ -244,6 +244,6 @@ fn a_scene_says_which_pictures_it_uses_and_what_was_wrong_with_them() {
         &Overrides::default(),
     );
     let needs = Needs::of(&plain);
-    assert!(!needs.pictures && !needs.textures);
+    assert!(!needs.pictures && !needs.physics.contains(Physics::TEXTURES));
     assert!(needs.decisions.iter().any(|decision| decision.part == "textures" && !decision.used));
 }
