@@ -154,7 +154,7 @@ fn less_error_by_more_samples(found: &Value) {
 
 #[test]
 fn what_is_another_picture_has_a_bias() {
-    let args = ["--spp", "4,64", "--reference-spp", "2048", "--models", "schlick,constant", "--dispersion", "on"];
+    let args = ["--spp", "4,256", "--reference-spp", "8192", "--models", "schlick,constant", "--dispersion", "on"];
     let found = found(&[&args[..], &AMPLE[..]].concat());
     let bias = |label: &str| variant(&found, label)["bias"].clone();
     assert_eq!(bias("constant")["verdict"], "different", "{}", bias("constant"));

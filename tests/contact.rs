@@ -9,7 +9,7 @@ mod common;
 
 use common::compare::{apart, renders};
 use common::files::{cuboid, hollowed, obj};
-use common::plates::{Layer, check, half_sky, looking, pile, seen};
+use common::plates::{Layer, check_by, half_sky, looking, pile, seen};
 use common::{film, lanes::with, mean, scene};
 use glam::{DMat3, DVec3};
 use std::path::Path;
@@ -66,7 +66,7 @@ fn through(name: &str, top: f64, objects: &str, layers: &[Layer], wrong: &[&[Lay
         let light = |layers: &[Layer]| 100.0 * cos * pile(1.0, layers, 1.0, cos).t;
         let text = format!("{}{}{}{objects}", seen(top * DVec3::Z, cos, 1), half_sky("\"E\"", false), materials());
         let wrong: Vec<f64> = wrong.iter().map(|layers| light(layers)).collect();
-        check(&format!("{name}, cos {cos:.1}"), &mut scene(&text, &with(8, SAMPLES)), light(layers), &wrong);
+        check_by(64, &format!("{name}, cos {cos:.1}"), &mut scene(&text, &with(8, SAMPLES)), light(layers), &wrong);
     }
 }
 
@@ -156,7 +156,7 @@ fn contact_survives_a_turn() {
             let light = |layers: &[Layer]| 100.0 * pile(1.0, layers, 1.0, cos).t;
             let name = format!("turned {first:?} on {second:?}, cos {cos:.1}");
             let (right, gap) = (light(&[upper, lower]), light(&[upper, AIR, lower]));
-            check(&name, &mut scene(&text, &with(8, SAMPLES)), right, &[gap]);
+            check_by(64, &name, &mut scene(&text, &with(8, SAMPLES)), right, &[gap]);
         }
     }
 }
@@ -249,7 +249,7 @@ fn contact_ends_where_the_smaller_block_ends() {
                 let text = format!("{}{sky}{}{objects}", looking(at + sign * 9.0 * DVec3::Z, at, 1), materials());
                 let [expected, wrong] = [layers, wrong].map(|layers| 100.0 * pile(1.0, layers, 1.0, 1.0).t);
                 let name = format!("{first:?} on {second:?} at {x}, from above: {above}");
-                check(&name, &mut scene(&text, &with(8, SAMPLES)), expected, &[wrong]);
+                check_by(64, &name, &mut scene(&text, &with(8, SAMPLES)), expected, &[wrong]);
             }
         }
     }

@@ -9,7 +9,7 @@ use std::fs;
 use std::path::Path;
 
 const SCENE: &str = r#"
-render = { width = 6, height = 4, samples = 16 }
+render = { width = 6, height = 4, samples = 16, filter = "box" }
 camera = { position = [0, -10, 0], look_at = [0, 0, 0], fov = 25 }
 picture = { exposure = 7 }
 environment.constant = { spectrum = "D50", luminance = 100 }

@@ -8,7 +8,7 @@
 mod common;
 
 use common::files::{cuboid, obj};
-use common::plates::{Plates, check, half_sky, pile, seen};
+use common::plates::{Plates, check_by, half_sky, pile, seen};
 use common::{lanes::with, library, scene};
 use glam::DVec3;
 use std::path::Path;
@@ -47,7 +47,7 @@ fn compare(name: &str, spectrum: &str, ior: &str, n: f64, lanes: u32) {
             let right = paper(n, ABSORPTION, cos);
             let wrong = [0.99, 1.01].map(|factor| light * paper(n, factor * ABSORPTION, cos).t);
             let mut through = scene(&plate(cos, spectrum, false, ior, &text), &with(lanes, 160));
-            check(&format!("{name}, through"), &mut through, light * right.t, &wrong);
+            check_by(64, &format!("{name}, through"), &mut through, light * right.t, &wrong);
             if lanes == 1 {
                 // One wavelength a path makes too much noise for the little that comes back.
                 continue;
@@ -55,7 +55,7 @@ fn compare(name: &str, spectrum: &str, ior: &str, n: f64, lanes: u32) {
             // Little of what comes back has been inside: the index tells, and a tenth of the absorption.
             let wrong = [light * paper(1.02 * n, ABSORPTION, cos).r, light * paper(n, 1.2 * ABSORPTION, cos).r];
             let mut back = scene(&plate(cos, spectrum, true, ior, &text), &with(lanes, 160));
-            check(&format!("{name}, back"), &mut back, light * right.r, &wrong);
+            check_by(64, &format!("{name}, back"), &mut back, light * right.r, &wrong);
         }
     }
 }

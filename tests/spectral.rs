@@ -185,8 +185,8 @@ fn errors_of_bands_do_not_repeat_from_pixel_to_pixel() {
             let place = |x: i32, y: i32| band[((y & 63) * 64 + (x & 63)) as usize];
             let products = (0..pixels).map(|p| place(p % 64, p / 64) * place(p % 64 + dx, p / 64 + dy)).sum::<f64>();
             let correlation = products / f64::from(pixels) / variance;
-            // Of independent pixels it has the standard deviation 1/64.
-            assert!(correlation.abs() < 4.0 / 64.0, "({dx}, {dy}) at {} nm: {correlation}", bins.center_nm(i));
+            // Of independent pixels it has the standard deviation 1/64; it may be less than nothing, where neighbours' errors cancel.
+            assert!(correlation < 4.0 / 64.0, "({dx}, {dy}) at {} nm: {correlation}", bins.center_nm(i));
         }
     }
 }

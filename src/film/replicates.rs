@@ -40,6 +40,10 @@ impl Replicates {
     }
 
     /// Variance of the mean of all samples in the channels that `matrix` makes of XYZ; infinite below two replicates.
+    ///
+    /// Replicates may differ in their variance by more than their counts: three points of a net are not half as good again as two.
+    /// With weights w and means m, E (mᵣ − m)² = (1 − 2 wᵣ) Vᵣ + V, where V = Σ wᵣ² Vᵣ is what is looked for; solved for V this is without
+    /// bias whatever the Vᵣ are. It asks for wᵣ < ½; else variances are taken as inverse to the counts.
     pub fn variance_of_mean(&self, matrix: &Matrix3) -> [f64; 3] {
         let taken: Vec<_> = self.counts.iter().zip(&self.sums).filter(|(count, _)| **count > 0).collect();
         if taken.len() < 2 {
@@ -50,12 +54,15 @@ impl Replicates {
         let mut total = [0i128; 3];
         taken.iter().for_each(|(_, sum)| (0..3).for_each(|c| total[c] = total[c].wrapping_add(sum[c])));
         let mean = color(&total, n);
-        let mut spread = [0.0; 3];
+        let any = taken.iter().all(|(count, _)| f64::from(**count) < 0.5 * n);
+        let (mut spread, mut weights) = ([0.0; 3], if any { 1.0 } else { 0.0 });
         for (count, sum) in &taken {
-            let (count, of_one) = (f64::from(**count), color(sum, f64::from(**count)));
-            (0..3).for_each(|c| spread[c] += count * (of_one[c] - mean[c]) * (of_one[c] - mean[c]));
+            let (share, of_one) = (f64::from(**count) / n, color(sum, f64::from(**count)));
+            let weight = if any { share * share / (1.0 - 2.0 * share) } else { share / (taken.len() - 1) as f64 };
+            (0..3).for_each(|c| spread[c] += weight * (of_one[c] - mean[c]) * (of_one[c] - mean[c]));
+            weights += if any { weight } else { share };
         }
-        spread.map(|spread| spread / ((taken.len() - 1) as f64 * n))
+        spread.map(|spread| spread / weights)
     }
 }
 
@@ -72,8 +79,26 @@ mod tests {
             pixel.add(replicate, [mean - 0.5, 1.0, mean]);
             pixel.add(replicate, [mean + 0.5, 1.0, mean]);
         }
-        assert_eq!(pixel.variance_of_mean(&Matrix3::IDENTITY), [0.75, 0.0, 0.75]);
-        assert_eq!(pixel.variance_of_mean(&Matrix3::diagonal([2.0; 3])), [3.0, 0.0, 3.0]);
+        let close = |found: [f64; 3], expected: [f64; 3]| (0..3).all(|c| (found[c] - expected[c]).abs() < 1e-14);
+        assert!(close(pixel.variance_of_mean(&Matrix3::IDENTITY), [0.75, 0.0, 0.75]));
+        assert!(close(pixel.variance_of_mean(&Matrix3::diagonal([2.0; 3])), [3.0, 0.0, 3.0]));
+    }
+
+    #[test]
+    fn replicates_may_differ_in_variance() {
+        // Means ±a of three replicates of 2 samples and ±b of one of 3: all 16 signs are equally likely, and the variance of the
+        // mean is (3 · 4 a² + 9 b²) / 81.
+        let (a, b) = (1.0f32, 5.0f32);
+        let mut sum = 0.0;
+        for signs in 0..16 {
+            let sign = |i: u32| if signs >> i & 1 == 1 { 1.0 } else { -1.0 };
+            let mut pixel = Replicates::default();
+            (0..3).for_each(|r| (0..2).for_each(|_| pixel.add(r, [a * sign(r as u32); 3])));
+            (0..3).for_each(|_| pixel.add(3, [b * sign(3); 3]));
+            sum += pixel.variance_of_mean(&Matrix3::IDENTITY)[1] / 16.0;
+        }
+        let expected = f64::from(12.0 * a * a + 9.0 * b * b) / 81.0;
+        assert!((sum - expected).abs() < 1e-12, "{sum} against {expected}");
     }
 
     #[test]

@@ -101,7 +101,12 @@ pub fn agrees(luminances: &[f64], expected: f64) -> bool {
 ///
 /// Gives back how far it is off, as a share.
 pub fn check(name: &str, scene: &mut Scene, expected: f64, wrong: &[f64]) -> f64 {
-    let found = luminances(&renders(scene, 0..16));
+    check_by(16, name, scene, expected, wrong)
+}
+
+/// The same by as many seeds as the wrong ones ask for.
+pub fn check_by(seeds: u64, name: &str, scene: &mut Scene, expected: f64, wrong: &[f64]) -> f64 {
+    let found = luminances(&renders(scene, 0..seeds));
     let (mean, error) = mean_and_error(&found);
     let off = mean / expected - 1.0;
     println!("{name}: {mean:.5} ± {error:.5}, expected {expected:.5}, off by {off:+.1e}");

@@ -24,8 +24,10 @@ fn ball(environment: &str, material: &str) -> String {
     format!("{HEAD}camera = {{ position = [0, -6, 2], look_at = [0, 0, 0], fov = 22 }}\n{environment}{material}{BALL}")
 }
 
+const SEEDS: u64 = 48;
+
 fn renders(text: &str, samples: u32, lanes: u32) -> Vec<[f64; 3]> {
-    replicates(text, &Overrides { samples: Some(samples), lanes: Some(lanes), ..Overrides::default() }, 0, 16)
+    replicates(text, &Overrides { samples: Some(samples), lanes: Some(lanes), ..Overrides::default() }, 0, SEEDS)
 }
 
 #[test]
@@ -41,7 +43,8 @@ fn a_constant_picture_is_the_constant_environment() {
             let (same, more) = (ball(&constant(100.0), material), ball(&constant(101.0), material));
             let (same, more) = (renders(&same, samples, lanes), renders(&more, samples, lanes));
             let off = |other: &[[f64; 3]]| {
-                let mean = |renders: &[[f64; 3]], i: usize| renders.iter().map(|xyz| xyz[i]).sum::<f64>() / 16.0;
+                let mean =
+                    |renders: &[[f64; 3]], i: usize| renders.iter().map(|xyz| xyz[i]).sum::<f64>() / SEEDS as f64;
                 (0..3).map(|i| (mean(&map, i) / mean(other, i) - 1.0).abs()).fold(0.0, f64::max)
             };
             let t = t_of_pairs(&map, &same);
