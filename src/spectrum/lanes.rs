@@ -46,10 +46,10 @@ impl<const N: usize> Lanes<N> {
         Self(std::array::from_fn(|i| f(self.0[i], other.0[i])))
     }
 
-    /// Sum in lane order, so that it is the same on every machine.
+    /// Sum by halves, always the same ones, so that it is the same on every machine.
     #[inline]
     pub fn sum(self) -> f32 {
-        self.0.iter().fold(0.0, |sum, &value| sum + value)
+        self.by_halves(|a, b| a + b)
     }
 
     #[inline]
@@ -57,9 +57,27 @@ impl<const N: usize> Lanes<N> {
         self.sum() * (1.0 / N as f32)
     }
 
+    /// The largest; −∞ if no lane is a number.
     #[inline]
     pub fn max(self) -> f32 {
-        self.0.iter().fold(f32::NEG_INFINITY, |max, &value| if value > max { value } else { max })
+        let larger = |a: f32, b: f32| if a > b { a } else { b };
+        self.map(|value| larger(value, f32::NEG_INFINITY)).by_halves(larger)
+    }
+
+    /// One value of all lanes: those of the upper half are joined to the lower half's until one is left. In lane order, as a loop over
+    /// the lanes would have it, the sums of a sample alone took 4 % of its instructions.
+    #[inline(always)]
+    fn by_halves(mut self, join: impl Fn(f32, f32) -> f32) -> f32 {
+        let mut half = N;
+        while half > 1 {
+            let odd = half % 2;
+            half /= 2;
+            for lane in 0..half {
+                self.0[lane] = join(self.0[lane], self.0[lane + half + odd]);
+            }
+            half += odd;
+        }
+        self.0[0]
     }
 }
 

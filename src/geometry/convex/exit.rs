@@ -58,9 +58,12 @@ pub struct Exits<const N: usize> {
 const TOUCHING: f32 = 1e-30;
 
 /// Width of the vectors of the processors that we build for.
-const VECTOR: usize = 4;
+const VECTOR: usize = 8;
 
-/// A plane with each of its numbers four times over, to meet a vector of four rays.
+/// Fewer rays than this are met one by one.
+const FEW: usize = 4;
+
+/// A plane with each of its numbers eight times over, to meet a vector of rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Spread {
     x: [f32; VECTOR],
@@ -118,20 +121,18 @@ impl Convex {
             if number >= FIRST_CHECK && number.is_multiple_of(CHECK_EVERY) && within(&o, d, &nearness, offset[0]) {
                 break;
             }
-            for group in 0..N / VECTOR {
-                for k in 0..VECTOR {
-                    let lane = VECTOR * group + k;
-                    let rate = x[k] * d.x[lane] + y[k] * d.y[lane] + z[k] * d.z[lane];
-                    let room = offset[k] - (x[k] * o.x[lane] + y[k] * o.y[lane] + z[k] * o.z[lane]);
-                    let near = rate / if room > TOUCHING { room } else { TOUCHING };
-                    facet[lane] = if near > nearness[lane] { number } else { facet[lane] };
-                    nearness[lane] = if near > nearness[lane] { near } else { nearness[lane] };
-                }
+            for lane in 0..N / FEW * FEW {
+                let k = lane % VECTOR;
+                let rate = x[k] * d.x[lane] + y[k] * d.y[lane] + z[k] * d.z[lane];
+                let room = offset[k] - (x[k] * o.x[lane] + y[k] * o.y[lane] + z[k] * o.z[lane]);
+                let near = rate / if room > TOUCHING { room } else { TOUCHING };
+                facet[lane] = if near > nearness[lane] { number } else { facet[lane] };
+                nearness[lane] = if near > nearness[lane] { near } else { nearness[lane] };
             }
         }
         let mut t = nearness.map(distance);
         facet = facet.map(|plane| self.facet_of(plane));
-        for lane in N / VECTOR * VECTOR..N {
+        for lane in N / FEW * FEW..N {
             (t[lane], facet[lane]) = self.exit_one(origins.get(lane), directions.get(lane));
         }
         Exits { t, facet }
