@@ -15,7 +15,8 @@
 //! beforehand. Here it need not be: with n = 2^m samples the first m digits of a coordinate are all there, whatever the shift, and what
 //! tells pixels apart are the next ones. So any k neighbouring digits of the shifts must differ among 2^k pixels, wherever they
 //! begin. Pascal's triangle modulo 2 is such a matrix (any k neighbouring rows of its first k columns have determinant 1), and stays one
-//! when columns are added to later ones; which are, was searched for so that also pairs of dimensions are well spread.
+//! when columns are added to later ones; which are, was searched for so that also pairs of dimensions are well spread
+//! (`tools/sampler_net.py` finds both the order and the mixes).
 //! Linear scrambling is what makes that work: Owen's would turn the next digits in each stratum in another way.
 
 /// Points of the net; longer renders go through it again under new shifts.
