@@ -10,6 +10,7 @@ const METALS: &str = include_str!("../scenes/metals.toml");
 const GLASS: &str = include_str!("../benches/peers/glass.toml");
 const DIAMOND: &str = include_str!("../scenes/diamond.toml");
 const CONTACT: &str = include_str!("../scenes/gold-in-water.toml");
+const PICTURES: &str = include_str!("data/pictures.toml");
 const ROUGH: &str = include_str!("../scenes/rough-glass.toml");
 
 fn small(fresnel: Option<&str>) -> Overrides {
@@ -24,10 +25,15 @@ fn small(fresnel: Option<&str>) -> Overrides {
 
 #[test]
 fn every_kernel_that_suffices_gives_the_same_picture() {
-    for (name, text) in
-        [("metals", METALS), ("glass", GLASS), ("diamond", DIAMOND), ("contact", CONTACT), ("rough glass", ROUGH)]
-    {
-        for fresnel in [None, Some("schlick")] {
+    for (name, text) in [
+        ("metals", METALS),
+        ("glass", GLASS),
+        ("diamond", DIAMOND),
+        ("contact", CONTACT),
+        ("rough glass", ROUGH),
+        ("pictures", PICTURES),
+    ] {
+        for fresnel in [None, Some("schlick"), Some("rgb-exact")] {
             let scene = scene(text, &small(fresnel));
             let needs = Needs::of(&scene);
             let expected = film(&scene);

@@ -2,11 +2,12 @@
 //!
 //! The samples of a pixel lie in a net, so that their spread says nothing about the error of their mean: it is far smaller than
 //! that of as many independent samples. What is honest is to render a pixel [`REPLICATES`] times, each time with a net of
-//! its own, and look how far the means mᵣ (of nᵣ samples, n in all) lie apart:
+//! its own, and look how far the means mᵣ (of nᵣ samples, n in all, wᵣ = nᵣ/n) lie apart:
 //!
-//! Var(m̄) ≈ Σᵣ nᵣ (mᵣ − m̄)² / ((R − 1) n),
+//! Var(m̄) ≈ Σᵣ aᵣ (mᵣ − m̄)² / (1 + Σᵣ aᵣ), aᵣ = wᵣ² / (1 − 2 wᵣ),
 //!
-//! unbiased for equal nᵣ (A. B. Owen, *Practical Quasi-Monte Carlo Integration*, 2023, on replicated randomised nets).
+//! for equal nᵣ the usual Σᵣ (mᵣ − m̄)² / ((R − 1) R) (A. B. Owen, *Practical Quasi-Monte Carlo Integration*, 2023, on replicated
+//! randomised nets).
 //! Its own relative standard deviation is √(2/(R − 1)) = 53 % in one pixel, for means that are about normal.
 //! The price: eight nets are together less even than one net of all samples.
 

@@ -34,6 +34,10 @@ pub(super) struct Reach {
     pub both: bool,
 }
 
+/// Least angle that light is taken to reach beyond a cone, rad: the tree looks in single precision, in which the cosine of less is 1, and a
+/// cone with a sharp edge would shine nowhere.
+const LEAST_BEYOND: f64 = 2e-3;
+
 impl Reach {
     pub const NOTHING: Self =
         Self { bounds: Bounds::EMPTY, intensity: 0.0, axis: DVec3::Z, spread: 0.0, beyond: 0.0, both: false };
@@ -73,7 +77,7 @@ impl Reach {
                         intensity: emitter.power * PI / point.solid_angle(),
                         axis,
                         spread: full,
-                        beyond: none - full,
+                        beyond: (none - full).max(LEAST_BEYOND),
                         ..everywhere
                     },
                 })

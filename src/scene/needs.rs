@@ -117,10 +117,17 @@ fn stones(scene: &Scene) -> Decision {
         Surface::Dielectric(interface) => !interface.is_rough(),
         _ => false,
     };
-    let alone = scene.objects.iter().filter(|object| object.inside == Inside::Alone).filter(smooth);
+    let parts = |object: &&Object| match scene.surfaces[object.surface as usize] {
+        Surface::Dielectric(interface) => {
+            let disperses = |medium| scene.medium(medium).dispersive;
+            scene.settings.lanes == 1 || disperses(interface.medium) || disperses(MediumId::OUTSIDE)
+        }
+        _ => false,
+    };
+    let alone = scene.objects.iter().filter(|object| object.inside == Inside::Alone).filter(smooth).filter(parts);
     match alone.map(|object| object.name.as_str()).collect::<Vec<_>>() {
         names if names.is_empty() => {
-            decision("stone kernel", false, "no smooth convex dielectric solid with nothing in it")
+            decision("stone kernel", false, "no smooth convex solid with nothing in it in which lanes part")
         }
         names => {
             let reason = format!("nothing reaches into {}: traced facet by facet, all lanes at once", listed(&names));
@@ -212,7 +219,9 @@ fn light_sampling(scene: &Scene) -> Decision {
 fn light_tree(scene: &Scene) -> Decision {
     match scene.lights.in_tree() {
         0 => {
-            decision("light tree", false, format!("at most {FEW} lights have a place: power alone chooses among them"))
+            let reason =
+                format!("not more than {FEW} lights have a place: there is little to choose, and power tells enough");
+            decision("light tree", false, reason)
         }
         count => {
             let reason = format!("{count} lights, more than {FEW}: chosen by power, distance and direction");

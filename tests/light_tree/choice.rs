@@ -1,6 +1,6 @@
 //! The choice as a probability: it sums to one, it is what happens, and it is worth its price.
 
-use super::lamps::{Kind, Scene, direction, receivers, room, vector};
+use super::lamps::{Kind, Scene, direction, receivers, room, spots, vector};
 use super::statistics::{Random, chi_squared};
 use glam::Vec3;
 use spectrel::light::{FEW, Receiver, Source};
@@ -55,6 +55,19 @@ fn lights_are_chosen_as_often_as_their_probability_says() {
             let nothing = 1.0 - expected.iter().sum::<f64>();
             let p = chi_squared(&counts, &[expected, vec![nothing]].concat(), f64::from(samples));
             assert!(p > 1e-4, "{kind:?} {count}: p = {p}");
+        }
+    }
+}
+
+/// Sharp edges are what spots have unless told, and narrow ones are hardly wider than single precision tells angles.
+#[test]
+fn spots_are_chosen_where_they_shine() {
+    for (full, none) in [(0.3, 0.3), (0.3, 0.6), (3.5e-4, 3.5e-4), (0.02, 0.02)] {
+        let scene = spots(40, full, none);
+        for index in 0..scene.lights.emitters().len() {
+            let below = Receiver { point: Vec3::new(4.0 * index as f32, 0.0, 0.0), normal: Some(Vec3::Z) };
+            let p = scene.lights.probability(&below, index);
+            assert!(p > 0.5, "{full} … {none} rad, spot {index}: {p}");
         }
     }
 }

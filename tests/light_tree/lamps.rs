@@ -66,8 +66,10 @@ pub fn room(seed: u64, kind: Kind, count: usize, far: bool) -> Scene {
         let (shape, two_sided) = lamp(&mut random, kind, index);
         let luminance = if kind == Kind::Mixed { 10f64.powf(4.0 * f64::from(random.unit())) } else { 1.0 };
         let Some(shape) = shape else {
+            // Some fade, some have a sharp edge.
+            let edge = if index % 12 < 3 { 0.4 } else { 0.7 };
             let cone =
-                (index % 12 < 6).then(|| Cone::new(direction(&mut random).as_dvec3(), 0.4, 0.7).expect("a cone"));
+                (index % 12 < 6).then(|| Cone::new(direction(&mut random).as_dvec3(), 0.4, edge).expect("a cone"));
             let light = Point::new(vector(&mut random, [-5.0, -5.0, 0.5], [5.0, 5.0, 3.0]), 1.0, cone);
             let power = 0.01 * luminance * light.solid_angle() / std::f64::consts::PI;
             emitters.push(Emitter { source: Source::Point(light), radiance, power });
@@ -87,6 +89,18 @@ pub fn room(seed: u64, kind: Kind, count: usize, far: bool) -> Scene {
     }
     let world = World::new(shapes).expect("a world");
     Scene { lights: Lights::new(emitters, Environment::Dark, &world), world }
+}
+
+/// A row of spots that shine straight down from a height of 3, apart by 4.
+pub fn spots(count: usize, full: f64, none: f64) -> Scene {
+    let radiance = Arena::default().add(Spectrum::Constant(1.0));
+    let spot = |index: usize| {
+        let cone = Cone::new(-DVec3::Z, full, none).expect("a cone");
+        let light = Point::new(Vec3::new(4.0 * index as f32, 0.0, 3.0), 1.0, Some(cone));
+        Emitter { source: Source::Point(light), radiance, power: light.solid_angle() / std::f64::consts::PI }
+    };
+    let world = World::new(Vec::new()).expect("a world");
+    Scene { lights: Lights::new((0..count).map(spot).collect(), Environment::Dark, &world), world }
 }
 
 /// Places in the room and on its floor, some right at lamps, some far away.

@@ -10,6 +10,12 @@ use rayon::prelude::*;
 use super::closed::weld;
 use crate::geometry::Triangles;
 
+/// A corner of more triangles than this is a tip and stays as it is: each of them would have to look at all others.
+const MOST: usize = 10_000;
+
+/// So many normals of a corner are looked through for the same one; a corner too many does no harm.
+const LOOKS: usize = 64;
+
 impl Triangles {
     /// The same surface with normals that are smooth across edges which bend by less than an angle in degrees; without
     /// normals at 0. Corners are parted where normals differ. A mesh that names corners it does not have stays as it is.
@@ -24,6 +30,9 @@ impl Triangles {
         let faces: Vec<DVec3> = self.indices.par_iter().map(|triangle| self.face_normal(triangle)).collect();
         let around = Around::of(&self);
         let normal = |face: usize, index: u32| {
+            if around.faces(index).len() > MOST {
+                return faces[face].as_vec3();
+            }
             let near = around.faces(index).iter();
             let smooth = near.filter(|(other, _)| faces[*other as usize].dot(faces[face]) > least_cosine);
             let sum: DVec3 = smooth.map(|&(other, angle)| faces[other as usize] * angle).sum();
@@ -111,7 +120,10 @@ impl<'a> Parted<'a> {
         let (of, made) = (self.of, &mut self.made);
         let index = index as usize;
         let mut known = self.last[index];
-        while known != NONE {
+        for _ in 0..LOOKS {
+            if known == NONE {
+                break;
+            }
             if made.normals[known as usize].to_array().map(f32::to_bits) == normal.to_array().map(f32::to_bits) {
                 return known;
             }
