@@ -28,8 +28,12 @@ pub const TILE: u32 = 1 << (DIGITS / 2);
 
 const DIGITS: u32 = 12;
 
-/// A coordinate of a point for each dimension, its first binary digit on top.
+/// Dimensions in which neighbours share a net; in later ones each pixel has a random shift of its own.
+pub const SHARED: usize = 32;
+
+/// A coordinate for each dimension, its first binary digit on top.
 pub type Point = [u32; DIMENSIONS];
+pub type Shift = [u32; SHARED];
 
 /// Which of Joe and Kuo's dimensions come first, by their t-values.
 const FIRST: [u32; 32] = [
@@ -43,23 +47,16 @@ const MIXED: [u32; 16] = [63, 40, 6, 45, 26, 45, 45, 50, 5, 10, 23, 18, 50, 45, 
 /// The net, and the shifts of a tile's pixels along its Z-curve.
 pub struct Net {
     pub points: Vec<Point>,
-    pub shifts: Vec<Point>,
+    pub shifts: Vec<Shift>,
 }
 
 impl Net {
     pub fn new() -> Self {
         let order = order();
-        let span = |columns: &dyn Fn(usize, u32) -> u32| {
-            let scrambled: Vec<Point> =
-                (0..DIGITS).map(|column| std::array::from_fn(|d| scramble(columns(d, column), d as u32))).collect();
-            span(&scrambled)
+        let sobol = |d: usize, column: u32| {
+            sobol_burley::parts::sobol_rev((1u32 << column).reverse_bits(), order[d]).reverse_bits()
         };
-        Self {
-            points: span(&|d, column| {
-                sobol_burley::parts::sobol_rev((1u32 << column).reverse_bits(), order[d]).reverse_bits()
-            }),
-            shifts: span(&mixed_pascal),
-        }
+        Self { points: span(sobol), shifts: span(mixed_pascal) }
     }
 }
 
@@ -68,10 +65,11 @@ fn order() -> Vec<u32> {
     FIRST.into_iter().chain(rest).collect()
 }
 
-/// All sums modulo 2 of columns: the point of each number.
-fn span(columns: &[Point]) -> Vec<Point> {
-    let mut points = vec![[0; DIMENSIONS]];
-    for column in columns {
+/// All sums modulo 2 of the scrambled columns of each dimension: the point of each number.
+fn span<const D: usize>(column_of: impl Fn(usize, u32) -> u32) -> Vec<[u32; D]> {
+    let mut points = vec![[0; D]];
+    for column in 0..DIGITS {
+        let column: [u32; D] = std::array::from_fn(|d| scramble(column_of(d, column), d as u32));
         for i in 0..points.len() {
             points.push(std::array::from_fn(|d| points[i][d] ^ column[d]));
         }
@@ -80,11 +78,11 @@ fn span(columns: &[Point]) -> Vec<Point> {
 }
 
 /// A column of Pascal's triangle modulo 2, by Lucas's theorem, with columns before it added: the first ones as [`MIXED`] says, the
-/// others at random. Were later columns the same in all dimensions, whole tiles would share the errors of two dimensions together.
+/// others at random, by the one of eight tried numbers with which tiles err least. Were later columns the same in all dimensions, whole tiles would share the errors of two dimensions together.
 fn mixed_pascal(dimension: usize, column: u32) -> u32 {
     let pascal =
         |column: u32| (0..32).filter(|row| row & column == column).fold(0, |digits, row| digits | 1 << (31 - row));
-    let random = hash(((dimension as u32) << 5 | column) ^ 0x2545_f491);
+    let random = hash(((dimension as u32) << 5 | column) ^ 1000);
     let added = match (column, MIXED.get(dimension)) {
         (1, Some(code)) => code & 1,
         (2, Some(code)) => code >> 1 & 3,
@@ -125,14 +123,14 @@ pub fn hash(value: u32) -> u32 {
 mod tests {
     use super::*;
 
-    fn digit(point: &Point, dimension: usize, place: u32) -> u32 {
+    fn digit(point: &[u32], dimension: usize, place: u32) -> u32 {
         point[dimension] >> (31 - place) & 1
     }
 
     #[test]
     fn any_window_of_digits_tells_that_many_pixels_apart_in_every_dimension() {
         let net = Net::new();
-        for dimension in 0..DIMENSIONS {
+        for dimension in 0..SHARED {
             for (known, k) in [(0, 1), (0, 2), (0, 4), (1, 3), (2, 4), (4, 4), (6, 2), (6, 6)] {
                 // With the first 2^m samples each pixel has every combination of m digits; those that come with the first one
                 // of them, m samples' digits being alike, must be told apart by the next k.
