@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 /// Points over s and φ, and cosines of the grid. Doubling all three moves a ball's mean by 2e-5, single angles by 3e-4 at most.
 const S: usize = 96;
 const PHI: usize = 128;
-const GRID: usize = 160;
+const GRID: usize = 480;
 
 /// How G2 joins both sides of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
