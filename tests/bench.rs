@@ -154,13 +154,14 @@ fn less_error_by_more_samples(found: &Value) {
 
 #[test]
 fn what_is_another_picture_has_a_bias() {
-    let args = ["--spp", "4,1024", "--reference-spp", "8192", "--models", "schlick,constant", "--dispersion", "on"];
-    let found = found(&[&args[..], &AMPLE[..]].concat());
+    let args = ["--spp", "4,4096", "--reference-spp", "65536", "--models", "schlick,constant", "--dispersion", "on"];
+    let usual = ["--lanes", "8", "--samplers", "sobol"];
+    let found = found(&[&args[..], &usual[..], &AMPLE[..]].concat());
     let bias = |label: &str| variant(&found, label)["bias"].clone();
     assert_eq!(bias("constant")["verdict"], "different", "{}", bias("constant"));
-    // What a metal or a stone reflects at grazing angles is most of what `constant` gets wrong; `schlick` has the ends right. With 4096
-    // samples and a reference of 65536 it is 3.2 times as much, ΔE 0.317 and 0.100.
-    assert!(number(&bias("constant"), "/delta_e2000") > 2.0 * number(&bias("schlick"), "/delta_e2000"), "{found}");
+    // What a metal or a stone reflects at grazing angles is most of what `constant` gets wrong; `schlick` has the ends right. It is 3.2 times
+    // as much, ΔE 0.317 and 0.100, which fewer samples do not tell from 3.
+    assert!(number(&bias("constant"), "/delta_e2000") > 3.0 * number(&bias("schlick"), "/delta_e2000"), "{found}");
     let said: Vec<_> = array(&found, "findings").iter().filter_map(Value::as_str).collect();
     let constant = said.iter().find(|line| line.starts_with("constant instead of exact")).expect("a sentence");
     assert!(constant.contains("costs ΔE"), "{constant}");

@@ -162,11 +162,12 @@ fn the_same_is_identical() {
 fn a_difference_is_found_at_few_samples_by_common_random_numbers() {
     let json = compared(&["--models", "exact,constant,schlick", "--spp", "16"]);
     assert_eq!(json["variants"][1]["difference"]["verdict"], "different");
-    // What is left of the noise in the difference: less than half of the √2 that two pictures of their own would have.
-    for variant in [1, 2] {
+    // What is left of the noise in the difference is a small part of that of the picture. Of `constant`, which changes what paths carry by
+    // much more, it is less than half of the √2 that two pictures of their own would have.
+    for (variant, most) in [(1, 0.5 * 2.0f64.sqrt()), (2, 0.5)] {
         let noise = number(&json, &format!("/variants/{variant}/difference/rmse_noise"));
         assert!(
-            noise < 0.5 * 2.0f64.sqrt() * number(&json, "/reference_noise/rmse"),
+            noise < most * number(&json, "/reference_noise/rmse"),
             "{variant}: {noise} {}",
             json["reference_noise"]
         );
