@@ -75,8 +75,8 @@ impl Flat {
     /// meet; so has one that leaves the outside of a solid. One that moves off to the front has not crossed.
     #[inline]
     pub fn meet(&self, probe: &Probe) -> Option<PlaneCrossing> {
-        let f = probe.origin - self.center;
-        let cosine = self.normal.dot(probe.direction);
+        let f = probe.ray.origin - self.center;
+        let cosine = self.normal.dot(probe.ray.direction);
         let height = self.normal.dot(f);
         let mut t = -height / cosine;
         let reach = sum_abs(f);
@@ -91,7 +91,7 @@ impl Flat {
         } else if !(t > slack) {
             return None;
         }
-        let w = f + probe.direction * t;
+        let w = f + probe.ray.direction * t;
         // Neighbours that share an edge must leave no crack: coordinates count as within when they may be.
         let margin = 2.0 * EPSILON * (reach + t);
         let side = if front { Side::Outside } else { Side::Inside };

@@ -36,7 +36,7 @@ pub use cuts::{Brilliant, StepCut};
 pub use disk::Disk;
 pub use error::GeometryError;
 pub use mesh::{Mesh, Placed, Surroundings};
-pub use ray::{Departure, Hit, Ray, ShapeId, Side, Target};
+pub use ray::{Departure, Hit, Met, Ray, ShapeId, Side, Target};
 pub use rectangle::Rectangle;
 pub use sampling::Toward;
 pub use shape::Shape;

@@ -66,6 +66,19 @@ impl Ray {
     }
 }
 
+/// What a ray meets first: what is known before the surface is looked at, and enough where light ends.
+/// [`World::surface`](super::World::surface) makes a [`Hit`] of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Met {
+    /// As in [`Hit`], and so the next three.
+    pub t: f32,
+    pub shape: ShapeId,
+    pub side: Side,
+    pub facet: u32,
+    /// As in [`Crossing`].
+    pub(super) place: u32,
+}
+
 /// Where a ray meets a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
@@ -137,9 +150,8 @@ impl Surface {
 
 /// A ray with what the shapes need to know about how exact its origin is.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Probe {
-    pub origin: Vec3,
-    pub direction: Vec3,
+pub(super) struct Probe<'a> {
+    pub ray: &'a Ray,
     /// Bound on the distance between the origin and the point it stands for.
     pub origin_error: f32,
     /// The ray leaves the outside of a solid, hence moves towards whatever touches the solid there.

@@ -2,7 +2,7 @@
 
 use glam::{Affine3A, Vec2, Vec3};
 
-use super::ray::{Crossing, Probe, Side, Surface};
+use super::ray::{Crossing, Met, Probe, Side, Surface};
 use super::{Bounds, Convex, Disk, GeometryError, Placed, Rectangle, Sphere};
 
 /// A ray that leaves a shape's surface.
@@ -133,13 +133,13 @@ impl Shape {
 
     /// Point and normals where a ray arrives.
     #[inline]
-    pub(super) fn surface(&self, near: Vec3, crossing: &Crossing) -> Surface {
+    pub(super) fn surface(&self, near: Vec3, met: &Met) -> Surface {
         match self {
             Shape::Sphere(s) => s.surface(near),
             Shape::Rectangle(s) => s.surface(near),
             Shape::Disk(s) => s.surface(near),
-            Shape::Convex(s) => s.surface(near, crossing.facet),
-            Shape::Mesh(s) => s.surface(near, crossing),
+            Shape::Convex(s) => s.surface(near, met.facet),
+            Shape::Mesh(s) => s.surface(near, met),
         }
     }
 

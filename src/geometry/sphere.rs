@@ -69,9 +69,9 @@ impl Sphere {
     #[inline]
     pub(super) fn meet(&self, probe: &Probe) -> Option<Crossing> {
         let r = self.radius;
-        let f = probe.origin - self.center;
-        let along = -f.dot(probe.direction);
-        let perpendicular = f + probe.direction * along;
+        let f = probe.ray.origin - self.center;
+        let along = -f.dot(probe.ray.direction);
+        let perpendicular = f + probe.ray.direction * along;
         let c = f.length_squared() - r * r;
         // The origin may be off by `origin_error`; f is rounded once, its square and r² a few times more.
         let error = 2.0 * r * (probe.origin_error + 2.0 * EPSILON * r);

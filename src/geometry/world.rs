@@ -2,7 +2,7 @@
 
 use glam::Vec2;
 
-use super::ray::{Crossing, Departure, Hit, Probe, Ray, ShapeId, Side, Surface, Target, sum_abs};
+use super::ray::{Crossing, Departure, Hit, Met, Probe, Ray, ShapeId, Side, Surface, Target, sum_abs};
 use super::shape::Leaving;
 use super::tree::{BoxRay, Tree};
 use super::{Bounds, GeometryError, Shape};
@@ -26,6 +26,14 @@ pub struct World {
 struct Nearest {
     crossing: Crossing,
     shape: u32,
+}
+
+impl Nearest {
+    #[inline]
+    fn met(self) -> Met {
+        let Crossing { t, side, facet, place, .. } = self.crossing;
+        Met { t, shape: ShapeId(self.shape), side, facet, place }
+    }
 }
 
 impl World {
@@ -60,12 +68,18 @@ impl World {
     /// solid finds the solid's exit before whatever touches it there.
     #[inline]
     pub fn closest(&self, ray: &Ray, t_max: f32) -> Option<Hit> {
-        self.closest_beyond(ray, &[], t_max)
+        self.first(ray, &[], t_max).map(|met| self.surface(ray, &met))
     }
 
     /// The same for a ray that has left more than one surface at its origin: those of solids whose faces coincide there.
     #[inline]
     pub fn closest_beyond(&self, ray: &Ray, also: &[Departure], t_max: f32) -> Option<Hit> {
+        self.first(ray, also, t_max).map(|met| self.surface(ray, &met))
+    }
+
+    /// What [`Self::closest_beyond`] finds, before its surface is looked at.
+    #[inline]
+    pub fn first(&self, ray: &Ray, also: &[Departure], t_max: f32) -> Option<Met> {
         let probe = self.probe(ray);
         let mut limit = t_max.min(f32::MAX);
         let mut best: Option<Nearest> = None;
@@ -101,7 +115,7 @@ impl World {
             best = Some(Nearest { crossing, shape });
             crossing.t
         });
-        best.map(|nearest| self.hit(ray, nearest))
+        best.map(Nearest::met)
     }
 
     /// Whether anything lies between the ray's origin and the point `t_max` away.
@@ -172,7 +186,7 @@ impl World {
             let again = mesh.again(&leaving, within(mesh.extent()) - far.t);
             candidate(far.shape.0, again.map(|crossing| Crossing { t: far.t + crossing.t, ..crossing }));
         }
-        best.map(|nearest| self.hit(ray, nearest))
+        best.map(|nearest| self.surface(ray, &nearest.met()))
     }
 
     /// Whether a hit is at the origin of its ray, up to rounding.
@@ -220,24 +234,24 @@ impl World {
 
     /// A hit point is good to a few roundings of its coordinates and of the size of its shape; a free one is what it says.
     #[inline]
-    fn probe(&self, ray: &Ray) -> Probe {
-        let Ray { origin, direction, departs } = *ray;
-        let (origin_error, leaves_solid) = match departs {
+    fn probe<'a>(&self, ray: &'a Ray) -> Probe<'a> {
+        let (origin_error, leaves_solid) = match ray.departs {
             Departure::Free => (0.0, false),
             Departure::Surface { shape, side, .. } => {
                 let (extent, solid) = self.shape(shape).map_or((0.0, false), |s| (s.extent(), s.is_solid()));
-                (4.0 * f32::EPSILON * (sum_abs(origin) + extent), solid && side == Side::Outside)
+                (4.0 * f32::EPSILON * (sum_abs(ray.origin) + extent), solid && side == Side::Outside)
             }
         };
-        Probe { origin, direction, origin_error, leaves_solid }
+        Probe { ray, origin_error, leaves_solid }
     }
 
+    /// Point and normals of what a ray has met.
     #[inline]
-    fn hit(&self, ray: &Ray, nearest: Nearest) -> Hit {
-        let Crossing { t, side, facet, .. } = nearest.crossing;
+    pub fn surface(&self, ray: &Ray, met: &Met) -> Hit {
+        let &Met { t, shape, side, facet, .. } = met;
         let near = ray.origin + ray.direction * t;
-        let Surface { point, normal, shading } = self.shapes[nearest.shape as usize].surface(near, &nearest.crossing);
-        Hit { t, shape: ShapeId(nearest.shape), side, facet, point, normal, shading }
+        let Surface { point, normal, shading } = self.shapes[shape.0 as usize].surface(near, met);
+        Hit { t, shape, side, facet, point, normal, shading }
     }
 }
 

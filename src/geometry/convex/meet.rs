@@ -23,8 +23,8 @@ impl Convex {
     /// belongs to something that touches the solid there: moving in, it has yet to enter (t = 0); moving out, it is gone.
     #[inline]
     pub(in crate::geometry) fn meet(&self, probe: &Probe) -> Option<Crossing> {
-        let o = probe.origin - self.center;
-        let d = probe.direction;
+        let o = probe.ray.origin - self.center;
+        let d = probe.ray.direction;
         // Most rays pass by: the sphere around the solid is a quarter of the work of the planes or less.
         let along = o.dot(d);
         let error = probe.origin_error + 4.0 * EPSILON * (sum_abs(o) + self.radius);
@@ -54,7 +54,7 @@ impl Convex {
             }
         }
         if !outside.contains(&true) {
-            let (t, facet) = self.exit_one(probe.origin, d);
+            let (t, facet) = self.exit_one(probe.ray.origin, d);
             return Some(Crossing { t, slack: self.slack(error, t, facet, d), side: Side::Inside, facet, place: 0 });
         }
         if missed.contains(&true) {

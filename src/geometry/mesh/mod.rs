@@ -147,6 +147,12 @@ impl Mesh {
         self.blocks[block].corners(lane).map(|corner| corner.as_dvec3())
     }
 
+    /// Whether its triangles stand for a smooth surface.
+    #[inline]
+    fn is_smooth(&self) -> bool {
+        !self.triangles.normals.is_empty()
+    }
+
     /// The normal of the surface that the triangles stand for, outwards, any length; none if it is the triangle's own.
     fn smooth_normal(&self, spot: &Spot, triangle: u32) -> Option<DVec3> {
         let (normals, indices) = (&self.triangles.normals, &self.triangles.indices);

@@ -6,7 +6,7 @@ use glam::{Affine3A, DVec3, Vec2, Vec3};
 
 use super::query::{NONE, Query};
 use super::{Mesh, Spot};
-use crate::geometry::ray::{Crossing, Probe, Surface};
+use crate::geometry::ray::{Crossing, Met, Probe, Ray, Surface};
 use crate::geometry::shape::Leaving;
 use crate::geometry::{Bounds, GeometryError, Side, check};
 
@@ -118,7 +118,7 @@ impl Placed {
     }
 
     /// Outwards, of unit length.
-    #[inline]
+    #[inline(always)]
     fn normal(&self, n: DVec3) -> Vec3 {
         let n = match &self.frame {
             None => n,
@@ -128,30 +128,19 @@ impl Placed {
     }
 
     /// A ray from elsewhere, in the space of the mesh.
-    #[inline]
+    #[inline(always)]
     fn query(&self, probe: &Probe, but: Option<u32>) -> Query {
         let skip = [NONE, but.unwrap_or(NONE)];
         let comes = [true, probe.leaves_solid && !self.mesh.is_closed()];
-        match &self.frame {
-            None => {
-                let &Probe { origin, direction, origin_error: error, .. } = probe;
-                Query { origin, direction, error, comes, skip }
-            }
-            Some(frame) => {
-                let origin = self.to_mesh(probe.origin).as_vec3();
-                let rounding = f32::EPSILON * origin.abs().max_element();
-                Query {
-                    origin,
-                    direction: self.direction(probe.direction).as_vec3(),
-                    error: probe.origin_error * frame.stretch as f32 + rounding,
-                    comes,
-                    skip,
-                }
-            }
-        }
+        let &Probe { ray: &Ray { origin, direction, .. }, origin_error: error, .. } = probe;
+        let Some(frame) = &self.frame else { return Query { origin, direction, error, comes, skip } };
+        let origin = frame.to_mesh.point(origin.as_dvec3()).as_vec3();
+        let direction = frame.to_mesh.vector(direction.as_dvec3()).as_vec3();
+        let rounding = f32::EPSILON * origin.abs().max_element();
+        Query { origin, direction, error: error * frame.stretch as f32 + rounding, comes, skip }
     }
 
-    #[inline]
+    #[inline(never)]
     pub(in crate::geometry) fn meet(&self, probe: &Probe, limit: f32) -> Option<Crossing> {
         self.mesh.closest(&self.query(probe, None), limit)
     }
@@ -187,25 +176,22 @@ impl Placed {
         if !self.is_closed() || !self.bounds.contains(point) {
             return false;
         }
-        let probe = Probe { origin: point, direction: Vec3::Z, origin_error: 0.0, leaves_solid: false };
+        let probe = Probe { ray: &Ray::free(point, Vec3::Z), origin_error: 0.0, leaves_solid: false };
         self.meet(&probe, f32::INFINITY).is_some_and(|crossing| crossing.side == Side::Inside)
     }
 
-    #[inline]
-    pub(in crate::geometry) fn surface(&self, near: Vec3, crossing: &Crossing) -> Surface {
-        self.surface_of(near, crossing.facet, self.mesh.corners_at(crossing.place))
-    }
-
-    /// The same for a triangle by its number.
-    pub(in crate::geometry) fn surface_at(&self, near: Vec3, triangle: u32) -> Surface {
-        self.surface_of(near, triangle, self.mesh.corners(triangle))
+    /// Outwards, of unit length.
+    pub(in crate::geometry) fn normal_of(&self, triangle: u32) -> Vec3 {
+        let [a, b, c] = self.mesh.corners(triangle);
+        self.normal((b - a).cross(c - a))
     }
 
     #[inline]
-    fn surface_of(&self, near: Vec3, triangle: u32, corners: [DVec3; 3]) -> Surface {
-        let spot = Spot::nearest(self.to_mesh(near), corners);
+    pub(in crate::geometry) fn surface(&self, near: Vec3, met: &Met) -> Surface {
+        let spot = Spot::nearest(self.to_mesh(near), self.mesh.corners_at(met.place));
         let (point, normal) = (self.to_world(spot.point).as_vec3(), self.normal(spot.normal));
-        let shading = self.mesh.smooth_normal(&spot, triangle).map_or(normal, |smooth| self.normal(smooth));
+        let smooth = if self.mesh.is_smooth() { self.mesh.smooth_normal(&spot, met.facet) } else { None };
+        let shading = smooth.map_or(normal, |smooth| self.normal(smooth));
         Surface { point, normal, shading }
     }
 

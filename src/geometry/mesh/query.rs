@@ -62,7 +62,7 @@ impl Mesh {
     }
 
     /// The first triangle met within `limit`.
-    #[inline]
+    #[inline(always)]
     pub(super) fn closest(&self, query: &Query, limit: f32) -> Option<Crossing> {
         let mut best: Option<Crossing> = None;
         self.visit(query, limit, |met, limit| {
@@ -103,7 +103,7 @@ impl Mesh {
 
     /// Shows what is met to `each`, which takes and returns the farthest distance of interest. The bound on its error, a square
     /// root and three divisions in double precision, is not worked out: only who asks for it pays.
-    #[inline]
+    #[inline(always)]
     fn visit(&self, query: &Query, limit: f32, mut each: impl FnMut(Crossing, f32) -> f32) {
         let line = Line::new(query.origin, query.direction);
         let boxes = BoxRay::new(query.origin, query.direction, query.error);

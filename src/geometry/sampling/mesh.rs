@@ -13,7 +13,7 @@ pub(super) fn sample(mesh: &Placed, reference: Vec3, u: [f32; 2]) -> Option<Towa
     // Uniform in the triangle: (1 − √s) a + √s ((1 − v) b + v c).
     let (root, v) = (share.sqrt(), f64::from(u[1]));
     let point = (a + ((b - a) * (1.0 - v) + (c - a) * v) * root).as_vec3();
-    by_area(reference, point, mesh.surface_at(point, triangle).normal, triangle, stands_for(mesh, triangle))
+    by_area(reference, point, mesh.normal_of(triangle), triangle, stands_for(mesh, triangle))
 }
 
 pub(super) fn pdf(mesh: &Placed, reference: Vec3, direction: Vec3, hit: &Hit) -> f32 {
