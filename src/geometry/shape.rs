@@ -87,7 +87,7 @@ impl Shape {
     }
 
     /// A ray that comes from elsewhere. What lies beyond `limit` need not be found.
-    #[inline]
+    #[inline(always)]
     pub(super) fn meet(&self, probe: &Probe, limit: f32) -> Option<Crossing> {
         match self {
             Shape::Sphere(s) => s.meet(probe),

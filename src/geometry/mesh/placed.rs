@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{Affine3A, DVec3, Vec2, Vec3};
 
-use super::query::{NONE, Query};
+use super::query::{First, NONE, Query};
 use super::{Mesh, Spot};
 use crate::geometry::ray::{Crossing, Met, Probe, Ray, Surface};
 use crate::geometry::shape::Leaving;
@@ -140,8 +140,13 @@ impl Placed {
         Query { origin, direction, error: error * frame.stretch as f32 + rounding, comes, skip }
     }
 
-    #[inline(never)]
+    #[inline(always)]
     pub(in crate::geometry) fn meet(&self, probe: &Probe, limit: f32) -> Option<Crossing> {
+        self.first(probe, limit).crossing()
+    }
+
+    #[inline(never)]
+    fn first(&self, probe: &Probe, limit: f32) -> First {
         self.mesh.closest(&self.query(probe, None), limit)
     }
 
@@ -162,7 +167,8 @@ impl Placed {
     /// What a ray meets of the mesh that it leaves.
     #[inline]
     pub(in crate::geometry) fn again(&self, ray: &Leaving, limit: f32) -> Option<Crossing> {
-        self.mesh.closest_bounded(&self.leaving(ray, None), limit)
+        let query = self.leaving(ray, None);
+        self.mesh.bounded(&query, self.mesh.closest(&query, limit))
     }
 
     /// Whether the mesh that a ray leaves, but for one triangle, surely is in its own way.

@@ -41,6 +41,43 @@ pub(super) struct Query {
     pub skip: [u32; 2],
 }
 
+/// What is met first, in two numbers, which functions hand over in registers. A [`Crossing`] goes through memory.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct First {
+    t: f32,
+    /// Place, triangle and side, from the lowest bit; all ones for nothing.
+    what: u64,
+}
+
+impl First {
+    const NONE: Self = Self { t: f32::INFINITY, what: u64::MAX };
+    const INSIDE: u64 = 1 << 63;
+
+    #[inline]
+    fn new(met: &Crossing) -> Self {
+        let inside = if met.side == Side::Inside { Self::INSIDE } else { 0 };
+        Self { t: met.t, what: inside | u64::from(met.facet) << 32 | u64::from(met.place) }
+    }
+
+    #[inline]
+    fn is_none(self) -> bool {
+        self.what == u64::MAX
+    }
+
+    #[inline]
+    fn facet(self) -> u32 {
+        ((self.what & !Self::INSIDE) >> 32) as u32
+    }
+
+    /// Without a bound on its error.
+    #[inline(always)]
+    pub fn crossing(self) -> Option<Crossing> {
+        let side = if self.what & Self::INSIDE == 0 { Side::Outside } else { Side::Inside };
+        let met = Crossing { t: self.t, slack: f32::INFINITY, side, facet: self.facet(), place: self.what as u32 };
+        (!self.is_none()).then_some(met)
+    }
+}
+
 impl Mesh {
     /// A ray that leaves a triangle from `near`, a point on it but for rounding, into one side of it.
     pub(super) fn leaving(&self, near: DVec3, direction: DVec3, triangle: u32, side: Side) -> Query {
@@ -63,22 +100,16 @@ impl Mesh {
 
     /// The first triangle met within `limit`.
     #[inline(always)]
-    pub(super) fn closest(&self, query: &Query, limit: f32) -> Option<Crossing> {
-        let mut best: Option<Crossing> = None;
+    pub(super) fn closest(&self, query: &Query, limit: f32) -> First {
+        let mut first = First::NONE;
         self.visit(query, limit, |met, limit| {
             // A tie goes to the lower number, whatever the tree looks like.
-            if best.is_none_or(|b| met.t < b.t || (met.t == b.t && met.facet < b.facet)) {
-                best = Some(met);
+            if first.is_none() || met.t < first.t || (met.t == first.t && met.facet < first.facet()) {
+                first = First::new(&met);
             }
-            best.map_or(limit, |b| b.t)
+            if first.is_none() { limit } else { first.t }
         });
-        best
-    }
-
-    /// The same with a bound on the error of its distance.
-    #[inline]
-    pub(super) fn closest_bounded(&self, query: &Query, limit: f32) -> Option<Crossing> {
-        self.closest(query, limit).map(|met| Crossing { slack: self.slack(query, &met), ..met })
+        first
     }
 
     /// Whether a triangle is surely met before `limit`.
@@ -90,6 +121,12 @@ impl Mesh {
             if hidden { -1.0 } else { limit }
         });
         hidden
+    }
+
+    /// With a bound on the error of its distance.
+    #[inline]
+    pub(super) fn bounded(&self, query: &Query, first: First) -> Option<Crossing> {
+        first.crossing().map(|met| Crossing { slack: self.slack(query, &met), ..met })
     }
 
     /// Bound on the error of the distance: how far along the ray that of the origin counts, and rounding.
