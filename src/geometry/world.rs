@@ -195,7 +195,8 @@ impl World {
         // Two solids of one mesh may touch each other.
         if let Some(Shape::Mesh(mesh)) = self.shape(far.shape) {
             let side = far.side.opposite();
-            let leaving = Leaving { origin: far.point, direction: ray.direction, facet: far.facet, side };
+            let beyond = Ray { origin: far.point, ..*ray };
+            let leaving = Leaving { ray: &beyond, facet: far.facet, side };
             let again = mesh.again(&leaving, within(mesh.extent()) - far.t);
             candidate(far.shape.0, again.map(|crossing| Crossing { t: far.t + crossing.t, ..crossing }));
         }
@@ -270,7 +271,7 @@ impl World {
 
 /// The shapes that a ray leaves, and how.
 #[inline]
-fn all_left(ray: &Ray, also: &[Departure]) -> impl Iterator<Item = (ShapeId, Leaving)> {
+fn all_left<'a>(ray: &'a Ray, also: &'a [Departure]) -> impl Iterator<Item = (ShapeId, Leaving<'a>)> {
     leaving(ray, ray.departs).into_iter().chain(also.iter().filter_map(|&departs| leaving(ray, departs)))
 }
 
@@ -280,12 +281,10 @@ fn is_among(departures: &[Departure], shape: u32) -> bool {
 }
 
 #[inline]
-fn leaving(ray: &Ray, departs: Departure) -> Option<(ShapeId, Leaving)> {
+fn leaving(ray: &Ray, departs: Departure) -> Option<(ShapeId, Leaving<'_>)> {
     match departs {
         Departure::Free => None,
-        Departure::Surface { shape, facet, side } => {
-            Some((shape, Leaving { origin: ray.origin, direction: ray.direction, facet, side }))
-        }
+        Departure::Surface { shape, facet, side } => Some((shape, Leaving { ray, facet, side })),
     }
 }
 
