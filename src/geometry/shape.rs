@@ -2,13 +2,14 @@
 
 use glam::{Affine3A, Vec2, Vec3};
 
-use super::ray::{Crossing, Met, Probe, Ray, Side, Surface};
+use super::ray::{Crossing, Met, Probe, Side, Surface};
 use super::{Bounds, Convex, Disk, GeometryError, Placed, Rectangle, Sphere};
 
 /// A ray that leaves a shape's surface.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Leaving<'a> {
-    pub ray: &'a Ray,
+pub(super) struct Leaving {
+    pub origin: Vec3,
+    pub direction: Vec3,
     pub facet: u32,
     pub side: Side,
 }
@@ -109,9 +110,9 @@ impl Shape {
 
     /// What a ray that leaves the shape meets of it again: from inside of a solid its exit, on a mesh anything. Flat shapes, and
     /// convex ones from outside, are not met again.
-    #[inline(always)]
+    #[inline]
     pub(super) fn again(&self, leaving: &Leaving, limit: f32) -> Option<Crossing> {
-        let &Leaving { ray: &Ray { origin, direction, .. }, side, .. } = leaving;
+        let &Leaving { origin, direction, side, .. } = leaving;
         match (self, side) {
             (Shape::Sphere(s), Side::Inside) => Some(s.exit(origin, direction)),
             (Shape::Convex(s), Side::Inside) => Some(s.exit(origin, direction)),

@@ -195,8 +195,7 @@ impl World {
         // Two solids of one mesh may touch each other.
         if let Some(Shape::Mesh(mesh)) = self.shape(far.shape) {
             let side = far.side.opposite();
-            let beyond = Ray { origin: far.point, ..*ray };
-            let leaving = Leaving { ray: &beyond, facet: far.facet, side };
+            let leaving = Leaving { origin: far.point, direction: ray.direction, facet: far.facet, side };
             let again = mesh.again(&leaving, within(mesh.extent()) - far.t);
             candidate(far.shape.0, again.map(|crossing| Crossing { t: far.t + crossing.t, ..crossing }));
         }
@@ -271,7 +270,7 @@ impl World {
 
 /// The shapes that a ray leaves, and how.
 #[inline]
-fn all_left<'a>(ray: &'a Ray, also: &'a [Departure]) -> impl Iterator<Item = (ShapeId, Leaving<'a>)> {
+fn all_left(ray: &Ray, also: &[Departure]) -> impl Iterator<Item = (ShapeId, Leaving)> {
     leaving(ray, ray.departs).into_iter().chain(also.iter().filter_map(|&departs| leaving(ray, departs)))
 }
 
@@ -281,10 +280,12 @@ fn is_among(departures: &[Departure], shape: u32) -> bool {
 }
 
 #[inline]
-fn leaving(ray: &Ray, departs: Departure) -> Option<(ShapeId, Leaving<'_>)> {
+fn leaving(ray: &Ray, departs: Departure) -> Option<(ShapeId, Leaving)> {
     match departs {
         Departure::Free => None,
-        Departure::Surface { shape, facet, side } => Some((shape, Leaving { ray, facet, side })),
+        Departure::Surface { shape, facet, side } => {
+            Some((shape, Leaving { origin: ray.origin, direction: ray.direction, facet, side }))
+        }
     }
 }
 

@@ -179,33 +179,25 @@ impl Spot {
     /// The point of a triangle nearest to one that lies on it but for rounding: put onto its plane, then between its edges.
     #[inline]
     fn nearest(near: DVec3, corners: [DVec3; 3]) -> Self {
-        Self::within(near, corners, |_, _, _| [0.0; 3])
+        Self::within(near, corners, |_, _| [0.0; 3])
     }
 
     /// The same, at least `margin` away from each edge where there is room.
     fn away_from_edges(near: DVec3, corners: [DVec3; 3], margin: f64) -> Self {
         // A weight is a distance from an edge over the height above it, and the height is twice the area over the edge.
-        Self::within(near, corners, |weights, edges, area2| {
-            // Most points are far from all edges, which needs no root to tell: where none is nearer than twice the margin, there is room.
-            let far =
-                |(&x, edge): (&f64, &DVec3)| x > 0.0 && x * x * area2 > 4.0 * margin * margin * edge.length_squared();
-            if weights.iter().zip(&edges).all(far) {
-                return [0.0; 3];
-            }
-            edges.map(|edge| margin * edge.length() / area2.sqrt())
-        })
+        Self::within(near, corners, |edges, area2| edges.map(|edge| margin * edge.length() / area2.sqrt()))
     }
 
-    /// `least` gives the smallest weights allowed, from those there are, the edges opposite of the corners, and four times the area, squared.
+    /// `least` gives the smallest weights allowed, from the edges opposite of the corners and four times the area, squared.
     #[inline]
-    fn within(near: DVec3, [a, b, c]: [DVec3; 3], least: impl FnOnce(&[f64; 3], [DVec3; 3], f64) -> [f64; 3]) -> Self {
+    fn within(near: DVec3, [a, b, c]: [DVec3; 3], least: impl FnOnce([DVec3; 3], f64) -> [f64; 3]) -> Self {
         let (ab, ac, ap) = (b - a, c - a, near - a);
         let normal = ab.cross(ac);
         let area2 = normal.length_squared();
         let v = ap.cross(ac).dot(normal) / area2;
         let w = ab.cross(ap).dot(normal) / area2;
         let mut weights = [1.0 - v - w, v, w];
-        let least = least(&weights, [c - b, ac, ab], area2);
+        let least = least([c - b, ac, ab], area2);
         let room = 1.0 - least.iter().sum::<f64>();
         if !(room > 0.0) || weights.iter().any(|x| !x.is_finite()) {
             weights = [1.0 / 3.0; 3];

@@ -157,21 +157,16 @@ impl Placed {
     }
 
     /// A ray that leaves a triangle of the mesh, in its space.
-    #[inline(always)]
+    #[inline]
     fn leaving(&self, ray: &Leaving, but: Option<u32>) -> Query {
-        let &Leaving { ray: &Ray { origin, direction, .. }, facet, side } = ray;
+        let &Leaving { origin, direction, facet, side } = ray;
         let query = self.mesh.leaving(self.to_mesh(origin), self.direction(direction), facet, side);
         Query { skip: [facet, but.unwrap_or(NONE)], ..query }
     }
 
     /// What a ray meets of the mesh that it leaves.
-    #[inline(always)]
+    #[inline]
     pub(in crate::geometry) fn again(&self, ray: &Leaving, limit: f32) -> Option<Crossing> {
-        self.first_again(ray, limit).crossing()
-    }
-
-    #[inline(never)]
-    fn first_again(&self, ray: &Leaving, limit: f32) -> First {
         let query = self.leaving(ray, None);
         self.mesh.bounded(&query, self.mesh.closest(&query, limit))
     }

@@ -41,23 +41,22 @@ pub(super) struct Query {
     pub skip: [u32; 2],
 }
 
-/// What is met first, in two words, which functions hand over in registers. A [`Crossing`] goes through memory.
+/// What is met first, in two numbers, which functions hand over in registers. A [`Crossing`] goes through memory.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct First {
     t: f32,
-    slack: f32,
     /// Place, triangle and side, from the lowest bit; all ones for nothing.
     what: u64,
 }
 
 impl First {
-    const NONE: Self = Self { t: f32::INFINITY, slack: f32::INFINITY, what: u64::MAX };
+    const NONE: Self = Self { t: f32::INFINITY, what: u64::MAX };
     const INSIDE: u64 = 1 << 63;
 
     #[inline]
     fn new(met: &Crossing) -> Self {
         let inside = if met.side == Side::Inside { Self::INSIDE } else { 0 };
-        Self { t: met.t, slack: met.slack, what: inside | u64::from(met.facet) << 32 | u64::from(met.place) }
+        Self { t: met.t, what: inside | u64::from(met.facet) << 32 | u64::from(met.place) }
     }
 
     #[inline]
@@ -70,17 +69,17 @@ impl First {
         ((self.what & !Self::INSIDE) >> 32) as u32
     }
 
+    /// Without a bound on its error.
     #[inline(always)]
     pub fn crossing(self) -> Option<Crossing> {
         let side = if self.what & Self::INSIDE == 0 { Side::Outside } else { Side::Inside };
-        let met = Crossing { t: self.t, slack: self.slack, side, facet: self.facet(), place: self.what as u32 };
+        let met = Crossing { t: self.t, slack: f32::INFINITY, side, facet: self.facet(), place: self.what as u32 };
         (!self.is_none()).then_some(met)
     }
 }
 
 impl Mesh {
     /// A ray that leaves a triangle from `near`, a point on it but for rounding, into one side of it.
-    #[inline(always)]
     pub(super) fn leaving(&self, near: DVec3, direction: DVec3, triangle: u32, side: Side) -> Query {
         let [a, b, c] = self.corners(triangle);
         let size = (b - a).abs().max((c - a).abs()).max_element();
@@ -125,9 +124,9 @@ impl Mesh {
     }
 
     /// With a bound on the error of its distance.
-    #[inline(always)]
-    pub(super) fn bounded(&self, query: &Query, first: First) -> First {
-        first.crossing().map_or(first, |met| First { slack: self.slack(query, &met), ..first })
+    #[inline]
+    pub(super) fn bounded(&self, query: &Query, first: First) -> Option<Crossing> {
+        first.crossing().map(|met| Crossing { slack: self.slack(query, &met), ..met })
     }
 
     /// Bound on the error of the distance: how far along the ray that of the origin counts, and rounding.
