@@ -7,15 +7,19 @@
 //!
 //! The tree knows only boxes and numbers. What a number means, a shape or a block of triangles, its user decides.
 //!
-//! What a ray costs, on a ball of 1.03 M triangles (`benches/peers/embree`, one thread of a Zen 5 server): camera rays 136 ns for some
-//! 7 nodes and 1 block, diffuse ones 165 for 10 and 2, random ones 310 for 6 and 1. Embree 3.13, robust, takes 0.81, 0.90 and 0.76
-//! times that. 26 ns of a camera ray go into the point and the normals in double precision; without them it is 0.97, 0.91 and 0.85. The
-//! rest is a chain from one box test to the next, and memory: on a ball of 2,500 triangles a camera ray takes 91 ns, and half of a
-//! random ray's time is spent on the first touch of nodes and blocks.
+//! What a ray costs, on a ball of 1.03 M triangles (`benches/peers/embree`, one thread of a Zen 5 server): camera rays 112 ns for some
+//! 7 nodes and 1 block, diffuse ones 179 for 10 and 2, random ones 320 for 6 and 1. Embree 3.13, robust, takes 1.07, 0.91 and 0.88
+//! times that. With the point and the normals in double precision it is 0.94, 0.90 and 0.84. The rest is a chain from one box test to the next,
+//! and memory: half of a random ray's time is spent on the first touch of nodes and blocks.
 //!
-//! Tried, and no faster: to touch what goes onto the stack, in place of the prefetching that safe Rust does not have; leaves of eight
-//! triangles in two blocks (random rays 10 % faster, diffuse ones 7 % slower); huge pages (3 %). Two vectors of four for one of eight are 2 to 13 %
-//! slower.
+//! A structure that is written field by field and read whole, as a copy does, is not forwarded from the processor's store buffer: the load
+//! waits until the stores are done. Handing rays over by reference and results in registers took a camera's ray from 147 to 112 ns, with the
+//! same arithmetic. So look at copies first (`perf annotate`: much time at a wide load from the stack).
+//!
+//! Tried, and no faster: to touch what goes onto the stack, or to prefetch it by `_mm_prefetch` (all lines of nodes and of blocks; nothing
+//! beyond the noise); leaves of eight triangles in two blocks (random rays 10 % faster, diffuse ones 7 % slower); huge pages (3 %); bits of hits in
+//! eight bits rather than 32, or handed back apart from the distances: then the compiler takes [`Node::meet`] apart (25 % slower). Two vectors of
+//! four for one of eight are 2 to 13 % slower.
 
 mod build;
 
