@@ -34,6 +34,19 @@ fn exact_by_shifting(bencher: Bencher) {
     });
 }
 
+/// The same bits from runs of 16, as a pass of a render adds them.
+#[divan::bench]
+fn exact_by_gathering(bencher: Bencher) {
+    let samples = samples();
+    bencher.counter(SAMPLES).bench_local(|| {
+        let mut pixel = Pixel::default();
+        for run in black_box(&samples).chunks(16) {
+            pixel.extend(run.iter().copied());
+        }
+        pixel
+    });
+}
+
 /// The obvious way to the same bits: scale in f64 and cast.
 #[divan::bench]
 fn exact_by_casting(bencher: Bencher) {

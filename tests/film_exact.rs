@@ -17,6 +17,52 @@ fn any_sample() -> impl Strategy<Value = [f32; 3]> {
     ]
 }
 
+/// The edges of what the film tells apart: what is cut away, gathered (below 2²⁵), in range (below 2³⁹), a number.
+const EDGES: [f32; 10] =
+    [0.0, -0.0, 1e-45, -1e-45, f32::MIN_POSITIVE, 33_554_432.0, 549_755_813_888.0, f32::MAX, f32::NAN, f32::INFINITY];
+
+/// Forty decades beside each other, both signs, and what lies at the edges.
+fn any_channel() -> impl Strategy<Value = f32> {
+    let edge = (prop::sample::select(&EDGES[..]), -1..2i32, any::<bool>()).prop_map(|(edge, step, negative)| {
+        let beside = f32::from_bits(edge.to_bits().saturating_add_signed(step));
+        if negative { -beside } else { beside }
+    });
+    let decades = (-30.0..11.0f32, any::<bool>())
+        .prop_map(|(decade, negative)| if negative { -10f32.powf(decade) } else { 10f32.powf(decade) });
+    prop_oneof![8 => decades, 2 => 0.0..1e4f32, 1 => any::<u32>().prop_map(f32::from_bits), 1 => edge]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(4096))]
+
+    #[test]
+    fn gathered_samples_are_added_samples(
+        before in prop::collection::vec(any_sample(), 0..3),
+        samples in prop::collection::vec(prop::array::uniform3(any_channel()), 0..50),
+        cut in 0usize..50,
+    ) {
+        let mut gathered = pixel_of(&before);
+        let (first, second) = samples.split_at(cut.min(samples.len()));
+        gathered.extend(first.iter().copied());
+        gathered.extend(second.iter().copied());
+        prop_assert_eq!(gathered, pixel_of(&[before, samples].concat()));
+    }
+
+    /// All bits set just below the brightness up to which samples are gathered: the sums that come closest to rounding.
+    #[test]
+    fn the_brightest_that_are_gathered_do_not_round(
+        samples in prop::collection::vec(prop::array::uniform3(0x4bff_ff00u32..=0x4bff_ffff), 0..50),
+        sign in prop::sample::select(&[1.0f32, -1.0][..]),
+        dark in 0.0..1e-12f32,
+    ) {
+        let samples: Vec<_> = samples.into_iter().map(|bits| bits.map(|bits| sign * f32::from_bits(bits))).collect();
+        let samples: Vec<_> = samples.into_iter().flat_map(|bright| [bright, [dark, -dark, sign * dark]]).collect();
+        let mut gathered = Pixel::default();
+        gathered.extend(samples.iter().copied());
+        prop_assert_eq!(gathered, pixel_of(&samples));
+    }
+}
+
 proptest! {
     #[test]
     fn order_does_not_matter(

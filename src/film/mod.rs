@@ -6,13 +6,14 @@
 //!
 //! - [`window`]: which part of the full image a film covers, and its tiles
 //! - [`fixed`]: one number to fixed point
-//! - [`pixel`]: the sums of one pixel
+//! - [`pixel`]: the sums of one pixel; [`batch`]: many samples of one pixel at once
 //! - [`layers`]: a film with features, replicates and bands of wavelength beside it
 //! - [`features`]: albedo and normal of one pixel; [`replicates`]: how uncertain it is
 //! - [`exposure`]: which luminance becomes display white
 //! - [`develop`]: exposure → white balance → RGB
 //! - [`gamut`]: what a display cannot show, counted and, for PNG, moved inside
 
+pub mod batch;
 pub mod develop;
 pub mod error;
 pub mod exposure;

@@ -31,9 +31,10 @@ impl<'a> Recorder<'a> {
     fn row<const N: usize>(&self, row: &mut LayersRow, [x0, y]: [u32; 2], samples: &dyn Fn(usize) -> Range<u64>) {
         for (at, x) in (0..row.pixels.len()).zip(x0..) {
             let numbers = Numbers::new(self.kernel.samples([x, y]), !row.replicates.is_empty());
-            for index in samples(at) {
-                self.sample::<N>(row, at, [x, y], numbers.sample(index), index);
-            }
+            let mut pixel = row.pixels[at];
+            let sample = |index| self.sample::<N>(row, at, [x, y], numbers.sample(index), index);
+            pixel.extend(samples(at).map(sample));
+            row.pixels[at] = pixel;
         }
     }
 
@@ -45,14 +46,21 @@ impl<'a> Recorder<'a> {
         }
     }
 
+    /// XYZ of a sample for the film; the layers are given theirs.
     #[inline]
-    fn sample<const N: usize>(&self, row: &mut LayersRow, at: usize, pixel: [u32; 2], sampler: Sampler, index: u64) {
+    fn sample<const N: usize>(
+        &self,
+        row: &mut LayersRow,
+        at: usize,
+        pixel: [u32; 2],
+        sampler: Sampler,
+        index: u64,
+    ) -> [f32; 3] {
         let traced = self.kernel.trace::<N>(pixel, sampler);
         let xyz = self.kernel.xyz(&traced);
-        row.pixels[at].add(xyz);
-        // The film has counted it as rejected; so it does not count for the layers.
+        // The film counts it as rejected; so it does not count for the layers.
         if !xyz.iter().all(|c| c.is_finite()) {
-            return;
+            return xyz;
         }
         if let Some(replicates) = row.replicates.get_mut(at) {
             replicates.add((index % REPLICATES as u64) as usize, xyz);
@@ -68,6 +76,7 @@ impl<'a> Recorder<'a> {
                 }
             }
         }
+        xyz
     }
 }
 
