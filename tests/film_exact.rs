@@ -48,15 +48,16 @@ proptest! {
         prop_assert_eq!(gathered, pixel_of(&[before, samples].concat()));
     }
 
-    /// All bits set just below the brightness up to which samples are gathered: the sums that come closest to rounding.
+    /// What comes closest to rounding where samples are gathered: sums of the brightest, beside small ones that fill the last place
+    /// of the upper parts, and of squares just below 1, which are all lower part.
     #[test]
-    fn the_brightest_that_are_gathered_do_not_round(
-        samples in prop::collection::vec(prop::array::uniform3(0x4bff_ff00u32..=0x4bff_ffff), 0..50),
-        sign in prop::sample::select(&[1.0f32, -1.0][..]),
-        dark in 0.0..1e-12f32,
+    fn the_hardest_to_gather_do_not_round(
+        first in prop::collection::vec(1.0..2.0f32, 0..4),
+        brightest in prop::collection::vec(0x4bff_ff00u32..=0x4bff_ffff, 0..50),
+        below_one in prop::collection::vec(0x3f7f_fff0u32..=0x3f7f_ffff, 0..50),
     ) {
-        let samples: Vec<_> = samples.into_iter().map(|bits| bits.map(|bits| sign * f32::from_bits(bits))).collect();
-        let samples: Vec<_> = samples.into_iter().flat_map(|bright| [bright, [dark, -dark, sign * dark]]).collect();
+        let bits = brightest.into_iter().chain(below_one).map(f32::from_bits);
+        let samples: Vec<[f32; 3]> = first.into_iter().chain(bits).map(|x| [x, -x, x]).collect();
         let mut gathered = Pixel::default();
         gathered.extend(samples.iter().copied());
         prop_assert_eq!(gathered, pixel_of(&samples));
