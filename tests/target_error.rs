@@ -4,7 +4,8 @@ mod common;
 
 use common::command::{folder, refused, run};
 use common::{film, scene};
-use spectrel::cli::effort::{Reached, Target, Work};
+use spectrel::cli::effort::{Reached, Target};
+use spectrel::cli::work::Work;
 use spectrel::film::{Develop, Exposure, Film, Gamut, Layers, Replicates, Wanted, Window};
 use spectrel::render::{Kernel, Recorder, render_layers, render_planned};
 use spectrel::scene::{Needs, Overrides, Scene};

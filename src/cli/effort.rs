@@ -1,17 +1,13 @@
-//! How long a render goes on: for so many samples, for so long, or until its error is small enough.
+//! How long a render goes on, and where: for so many samples, for so long, or until its error is small enough.
 
-use super::show;
-use crate::film::{Develop, FilmError, Layers, REPLICATES};
-use crate::render::{PASS, Progress, Recorder, render_layers, render_planned};
-use crate::report::View;
-use crate::report::noise::{Bound, Noise, half};
-use crate::report::plan::Shares;
+use crate::film::REPLICATES;
+use crate::report::noise::{Bound, Noise};
+use crate::report::plan::Aim;
 use crate::scene::SceneError;
 use clap::Args;
 use std::fmt;
 use std::str::FromStr;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 #[derive(Clone, Debug, Args)]
 pub struct EffortArgs {
@@ -22,17 +18,21 @@ pub struct EffortArgs {
     /// Render for this long, such as 60s, 5m or 1h, and then write what there is
     #[arg(long, value_name = "TIME", value_parser = duration)]
     time: Option<Duration>,
+    /// Share samples out: --spp, or what --time is enough for, is their mean, and after the first quarter noisy places get more, so that
+    /// the mean ΔE2000 of the picture (dE) or the RMSE of its linear RGB (rmse) falls fastest [default: dE]
+    #[arg(long, value_name = "dE|rmse", num_args = 0..=1, require_equals = true, default_missing_value = "dE", value_parser = aim)]
+    adaptive: Option<Aim>,
 }
 
 /// A bound on an error of the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Target {
-    measure: Measure,
-    bound: f64,
+    pub measure: Measure,
+    pub bound: f64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Measure {
+pub enum Measure {
     MeanDe,
     De95,
     Rmse,
@@ -51,7 +51,8 @@ impl fmt::Display for Measure {
 }
 
 impl Measure {
-    fn of(self, noise: &Noise) -> Bound {
+    /// What it is at most in a picture of this noise.
+    pub fn of(self, noise: &Noise) -> Bound {
         match self {
             Self::MeanDe => noise.mean_de(),
             Self::De95 => noise.de95(),
@@ -74,6 +75,11 @@ impl FromStr for Target {
     }
 }
 
+fn aim(text: &str) -> Result<Aim, String> {
+    let found = Aim::ALL.into_iter().find(|aim| aim.name().eq_ignore_ascii_case(text));
+    found.ok_or_else(|| "samples are shared out for dE or rmse".into())
+}
+
 pub fn duration(text: &str) -> Result<Duration, String> {
     let text = text.trim();
     let digits = text.trim_end_matches(|c: char| c.is_ascii_alphabetic());
@@ -93,35 +99,34 @@ pub fn duration(text: &str) -> Result<Duration, String> {
 /// Samples a pixel at most, unless --spp says otherwise: where single precision and the sampler's table end to gain.
 const LIMIT: u64 = 1 << 16;
 
-/// Samples of every pixel before any is judged: two of each replicate.
-const FIRST: u64 = 2 * REPLICATES as u64;
-
-/// The next look is at least this many times further, and at most so many: looking costs, and early errors are guesses.
-const STEP: (f64, f64) = (1.2, 4.0);
-
-/// Aimed at so many times the samples that should do, so that one look more is seldom needed.
-const AHEAD: f64 = 1.06;
+/// Fewer samples a pixel are not shared out: a quarter of them would tell too little of the noise.
+const LEAST_SHARED: u32 = 16;
 
 /// How long a render is to go on.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Effort {
-    /// For so many samples a pixel.
-    Samples(u64),
+    /// For so many samples a pixel, in the mean if they are shared out.
+    Samples { samples: u64, aim: Option<Aim> },
     /// Until the time is over, so many samples at most.
-    Time { time: Duration, most: u64 },
+    Time { time: Duration, most: u64, aim: Option<Aim> },
     /// Until the targets are met, so many samples a pixel and so long at most.
     Error { targets: Vec<Target>, time: Option<Duration>, most: u64 },
 }
 
 impl EffortArgs {
-    /// Whether nobody knows how many samples it takes.
+    /// Whether nobody knows how many samples a pixel takes.
     pub fn is_open(&self) -> bool {
-        self.time.is_some() || self.judges()
+        self.time.is_some() || self.judges() || self.adaptive.is_some()
     }
 
     /// Whether the picture's error decides.
     pub fn judges(&self) -> bool {
         !self.target_error.is_empty()
+    }
+
+    /// What samples are shared out for without a bound on the error.
+    pub fn shares_out(&self) -> Option<Aim> {
+        self.adaptive
     }
 
     /// `asked` are the samples of the command line, `own` those of the scene.
@@ -139,9 +144,20 @@ impl EffortArgs {
                 format!("--target-error compares {least} replicates of each pixel: it needs --spp {least} or more");
             return Err(SceneError::new(message));
         }
+        if self.judges() && self.adaptive.is_some() {
+            let error = SceneError::new("--adaptive and --target-error do not go together");
+            return Err(error.help("--target-error shares samples out by itself, for what it bounds"));
+        }
+        if self.adaptive.is_some() && self.time.is_none() && own < LEAST_SHARED {
+            let message = format!(
+                "--adaptive shares samples out by the first quarter of them: it needs --spp {LEAST_SHARED} or more"
+            );
+            return Err(SceneError::new(message));
+        }
+        let aim = self.adaptive;
         Ok(match (self.target_error.is_empty(), self.time) {
-            (true, None) => Effort::Samples(u64::from(own)),
-            (true, Some(time)) => Effort::Time { time, most },
+            (true, None) => Effort::Samples { samples: u64::from(own), aim },
+            (true, Some(time)) => Effort::Time { time, most, aim },
             (false, time) => Effort::Error { targets: self.target_error.clone(), time, most },
         })
     }
@@ -151,139 +167,10 @@ impl Effort {
     /// Samples a pixel that progress is shown against, if they are known.
     pub fn samples(&self) -> Option<u64> {
         match self {
-            Self::Samples(samples) => Some(*samples),
+            Self::Samples { samples, .. } => Some(*samples),
             _ => None,
         }
     }
-}
-
-/// A render on its way.
-pub struct Work<'a> {
-    pub recorder: &'a Recorder<'a>,
-    pub progress: &'a dyn Progress,
-    pub cancel: &'a AtomicBool,
-    pub quiet: bool,
-}
-
-impl Work<'_> {
-    fn cancelled(&self) -> bool {
-        self.cancel.load(Ordering::Relaxed)
-    }
-
-    /// Samples until the time is over; a pass that would take longer than what is left is made shorter.
-    pub fn for_time(&self, layers: &mut Layers, time: Duration, most: u64) {
-        let started = Instant::now();
-        let mut done = 0;
-        while done < most && !self.cancelled() {
-            let gone = started.elapsed().as_secs_f64();
-            let left = time.as_secs_f64() - gone;
-            let fit = if done == 0 { 1.0 } else { left * done as f64 / gone };
-            if done > 0 && fit < 1.0 {
-                break;
-            }
-            let pass = (fit as u64).clamp(1, u64::from(PASS)).min(most - done);
-            render_layers(self.recorder, layers, done..done + pass, self.progress, self.cancel);
-            done += pass;
-        }
-    }
-
-    /// Samples where they help most until the targets are met, the time is over, or `most` samples a pixel are reached.
-    pub fn for_error(
-        &self,
-        layers: &mut Layers,
-        (targets, time, most): (&[Target], Option<Duration>, u64),
-        develop: &Develop,
-    ) -> Result<Reached, FilmError> {
-        let started = Instant::now();
-        let each = REPLICATES as u64;
-        let first = (FIRST.min(most) / each).max(1) * each;
-        render_layers(self.recorder, layers, 0..first, self.progress, self.cancel);
-        let (width, view) = viewed(layers, develop)?;
-        let shares = self.shares(&Noise::of_each(layers.replicates(), width, &view), targets, layers);
-        let mut means = [first as f64; 2];
-        loop {
-            let bounds = of_all(targets, &look(layers, develop)?);
-            let mean = 0.5 * (means[0] + means[1]);
-            self.tell(mean, targets, &bounds);
-            let affordable =
-                time.map_or(f64::INFINITY, |time| time.as_secs_f64() * mean / started.elapsed().as_secs_f64());
-            let met = excess(targets, &bounds) <= 1.0;
-            let reached = Reached { bounds, targets: targets.to_vec(), mean_samples: mean, met };
-            if mean >= most as f64 || affordable < mean * 1.05 || self.cancelled() {
-                return Ok(reached);
-            }
-            let next = self.next(layers, develop, targets, means)?;
-            if met && next == means {
-                return Ok(reached);
-            }
-            // Where either half finds the other one quiet enough, but both together are not, both go on.
-            let next = if next == means { means.map(|mean| mean * STEP.0) } else { next };
-            means = [0, 1].map(|half| next[half].min(affordable).min(most as f64).max(means[half]));
-            let has = layers.film().pixels().iter().map(|pixel| u64::from(pixel.count()) + u64::from(pixel.rejected()));
-            let plan = shares.ranges(has, |at| means[half(at, width)], each);
-            render_planned(self.recorder, layers, &plan, self.progress, self.cancel);
-        }
-    }
-
-    /// How many samples either half of the picture is to have, as the other half tells.
-    fn next(
-        &self,
-        layers: &Layers,
-        develop: &Develop,
-        targets: &[Target],
-        means: [f64; 2],
-    ) -> Result<[f64; 2], FilmError> {
-        let (width, view) = viewed(layers, develop)?;
-        Ok([0, 1].map(|which| {
-            let other = Noise::of_half(layers.replicates(), width, &view, 1 - which);
-            // As if it had as many samples.
-            let excess = excess(targets, &of_all(targets, &other)) * (means[1 - which] / means[which]).sqrt();
-            match excess <= 1.0 {
-                true => means[which],
-                // Errors fall at least as the root of the samples.
-                false => (means[which] * excess * excess * AHEAD).clamp(means[which] * STEP.0, means[which] * STEP.1),
-            }
-        }))
-    }
-
-    fn shares(&self, noise: &Noise, targets: &[Target], layers: &Layers) -> Shares {
-        let width = layers.film().window().width as usize;
-        match targets.iter().all(|target| target.measure == Measure::Rmse) {
-            true => Shares::new(&noise.squares.iter().map(|square| square.sqrt()).collect::<Vec<_>>(), width, 1.0),
-            false => Shares::new(&noise.de, width, 2.0 / 3.0),
-        }
-    }
-
-    fn tell(&self, mean: f64, targets: &[Target], bounds: &[Bound]) {
-        if self.quiet {
-            return;
-        }
-        let each = |(target, bound): (&Target, &Bound)| {
-            format!("{} ≤ {:.3} of {}", target.measure, bound.promised, target.bound)
-        };
-        let all: Vec<String> = targets.iter().zip(bounds).map(each).collect();
-        show::note(format_args!("{mean:>6.0} samples a pixel: {}", all.join(", ")));
-    }
-}
-
-fn of_all(targets: &[Target], noise: &Noise) -> Vec<Bound> {
-    targets.iter().map(|target| target.measure.of(noise)).collect()
-}
-
-/// The largest share of a target that is promised.
-fn excess(targets: &[Target], bounds: &[Bound]) -> f64 {
-    targets.iter().zip(bounds).map(|(target, bound)| bound.promised / target.bound).fold(0.0, f64::max)
-}
-
-/// The width of what there is, and how it is looked at, at the exposure of what there is.
-fn viewed(layers: &Layers, develop: &Develop) -> Result<(usize, View), FilmError> {
-    let ev = develop.exposure.ev(layers.film().pixels().iter().map(|pixel| pixel.mean()[1]))?;
-    Ok((layers.film().window().width as usize, View::new(ev, develop.white)))
-}
-
-fn look(layers: &Layers, develop: &Develop) -> Result<Noise, FilmError> {
-    let (width, view) = viewed(layers, develop)?;
-    Ok(Noise::of(layers.replicates(), width, &view))
 }
 
 /// What was asked for and what was reached.

@@ -1,12 +1,13 @@
 //! One render of one scene: exposed, developed, written.
 
-use super::effort::{Effort, Reached, Work};
+use super::effort::{Effort, Reached};
 use super::interrupt::Interrupt;
 use super::layers::{Picture, Plan};
 use super::preview::Preview;
 use super::progress::Shown;
 use super::render::RenderArgs;
 use super::show;
+use super::work::Work;
 use crate::film::{Develop, Developed, Exposure, Film, Gamut, Layers, Window, fnv1a_64};
 use crate::fresnel::FresnelModel;
 use crate::image::{self, Encoded, Extra, Metadata};
@@ -65,19 +66,29 @@ impl Job<'_> {
         let kernel = Kernel::new(scene, &needs);
         let recorder = self.plan.recorder(&kernel, scene, &needs);
         let work = Work { recorder: &recorder, progress: &progress, cancel: interrupt.flag(), quiet };
-        let mut render = |layers: &mut Layers, samples| {
-            pool.install(|| render_layers(&recorder, layers, samples, &progress, interrupt.flag()));
-        };
-        match (self.effort, preview) {
-            (Effort::Samples(samples), None) => render(&mut layers, 0..*samples),
-            (Effort::Samples(_), Some(preview)) => {
-                self.expose_and_show(&mut layers, preview, &mut render, interrupt)?
+        let develop = development(scene);
+        let expose = |layers: &mut Layers| match *self.effort {
+            Effort::Samples { samples, aim: None } => {
+                work.evenly(layers, samples);
+                Ok(())
             }
-            (Effort::Time { time, most }, _) => pool.install(|| work.for_time(&mut layers, *time, *most)),
-            (Effort::Error { targets, time, most }, _) => {
-                let asked = (targets.as_slice(), *time, *most);
-                let reached = pool.install(|| work.for_error(&mut layers, asked, &development(scene)));
-                tell(&reached.map_err(SceneError::new)?, quiet);
+            Effort::Samples { samples, aim: Some(aim) } => work.shared(layers, samples, aim, &develop),
+            Effort::Time { time, most, aim: None } => {
+                work.evenly_for(layers, time, most);
+                Ok(())
+            }
+            Effort::Time { time, most, aim: Some(aim) } => work.shared_for(layers, (time, most), aim, &develop),
+            Effort::Error { ref targets, time, most } => {
+                work.for_error(layers, (targets, time, most), &develop).map(|reached| tell(&reached, quiet))
+            }
+        };
+        match preview {
+            None => pool.install(|| expose(&mut layers)).map_err(SceneError::new)?,
+            Some(preview) => {
+                let mut render = |layers: &mut Layers, samples| {
+                    pool.install(|| render_layers(&recorder, layers, samples, &progress, interrupt.flag()));
+                };
+                self.expose_and_show(&mut layers, preview, &mut render, interrupt)?
             }
         }
         progress.finish();
@@ -148,8 +159,8 @@ impl Job<'_> {
         developed: &Developed,
     ) -> Result<Encoded, SceneError> {
         let (format, options) = (image::Format::of(path).map_err(SceneError::new)?, self.args.options());
-        let metadata =
-            self.plan.describe(path, self.scene, &metadata(self.scene, identity, layers.film(), developed))?;
+        let metadata = metadata(self.scene, identity, layers.film(), developed);
+        let metadata = self.plan.describe(path, self.scene, &metadata)?;
         let extra = match format {
             image::Format::Png => Extra::default(),
             image::Format::Exr => {

@@ -1,5 +1,6 @@
 //! What `spectrel render` writes beside the picture: AOVs into EXR files, bands of wavelength into spectral ones.
 
+use super::effort::EffortArgs;
 use super::memory;
 use crate::film::{Develop, Developed, FilmError, Layers, REPLICATES, Replicates, Wanted, Window};
 use crate::image::channels::FAR;
@@ -7,6 +8,7 @@ use crate::image::{Channel, ExrSpace, Extra, Format, Metadata, spectral};
 use crate::render::{FirstHit, Guides, Kernel, Recorder, first_hits};
 use crate::report::View;
 use crate::report::noise::Noise;
+use crate::report::plan::Aim;
 use crate::scene::{Needs, Scene, SceneError};
 use crate::spectrum::{Bins, Matrix3, RgbSpace};
 use clap::{Args, ValueEnum};
@@ -46,6 +48,8 @@ pub struct Plan {
     bins: Option<Bins>,
     /// Whether the render stops by its error.
     judged: bool,
+    /// What samples are shared out for.
+    aim: Option<Aim>,
 }
 
 /// Whether a file's name asks for bands of wavelength.
@@ -55,7 +59,7 @@ fn is_spectral(path: &Path) -> bool {
 
 impl LayerArgs {
     /// Fails if no file could hold what is asked for.
-    pub fn plan(&self, outputs: &[PathBuf], judged: bool) -> Result<Plan, SceneError> {
+    pub fn plan(&self, outputs: &[PathBuf], effort: &EffortArgs) -> Result<Plan, SceneError> {
         let exr = |path: &&PathBuf| matches!(Format::of(path), Ok(Format::Exr));
         let (bands, plain): (Vec<_>, Vec<_>) = outputs.iter().filter(exr).partition(|path| is_spectral(path));
         let option = if self.denoise_inputs { "--denoise-inputs" } else { "--aovs" };
@@ -69,7 +73,7 @@ impl LayerArgs {
         }
         let bins = (!bands.is_empty()).then(|| self.spectral.unwrap_or_default());
         let aovs = if self.aovs.contains(&Aov::All) { Aov::value_variants().to_vec() } else { self.aovs.clone() };
-        Ok(Plan { aovs, mirrors: self.denoise_inputs, bins, judged })
+        Ok(Plan { aovs, mirrors: self.denoise_inputs, bins, judged: effort.judges(), aim: effort.shares_out() })
     }
 }
 
@@ -111,7 +115,8 @@ impl Plan {
             true => Guides::behind_mirrors(scene, needs, RgbSpace::Srgb),
             false => Guides::first_hit(scene, needs, RgbSpace::Srgb),
         });
-        Recorder::new(kernel, guides, self.bins.as_ref())
+        let recorder = Recorder::new(kernel, guides, self.bins.as_ref());
+        if self.aim.is_some() { recorder.in_halves() } else { recorder }
     }
 
     /// What goes into a file beside the picture.
@@ -138,11 +143,13 @@ impl Plan {
             channels.extend(Channel::triple("variance", ["R", "G", "B"], true, &variance));
         }
         if self.has(Aov::Noise) {
-            let counts = layers.film().pixels().iter().map(|pixel| pixel.count() as f32);
             channels.push(Channel::new(
                 "noise.dE",
                 Noise::of(layers.replicates(), layers.film().window().width as usize, &picture.viewing).de,
             ));
+        }
+        if self.has(Aov::Noise) || self.aim.is_some() {
+            let counts = layers.film().pixels().iter().map(|pixel| pixel.count() as f32);
             channels.push(Channel::new("samples.N", counts.collect()));
         }
         channels.extend(self.of_first_hits(scene, layers.film().window()));
@@ -165,6 +172,7 @@ impl Plan {
 
     /// What a file says of itself.
     pub fn describe(&self, path: &Path, scene: &Scene, metadata: &Metadata) -> Result<Metadata, SceneError> {
+        let metadata = &self.aim.map_or_else(|| metadata.clone(), |aim| metadata.clone().with("adaptive", aim.name()));
         if let (Some(bins), true) = (&self.bins, is_spectral(path)) {
             return Ok(spectral::describe(metadata, bins));
         }

@@ -20,6 +20,7 @@ mod show;
 mod subjects;
 mod tables;
 mod watch;
+pub mod work;
 
 use crate::scene::{SceneError, Text};
 use crate::spectrum::{Library, nearest};

@@ -128,10 +128,10 @@ pub fn run(args: &RenderArgs) -> Result<(), SceneError> {
     outputs.iter().try_for_each(|path| image::check_writable(path)).map_err(SceneError::new)?;
     if args.effort.is_open() && args.preview.is_some() {
         return Err(SceneError::new(
-            "--preview shows a render of a known length: it does not go with --target-error or --time",
+            "--preview shows a render of a known length: it does not go with --target-error, --time or --adaptive",
         ));
     }
-    let plan = args.layers.plan(&outputs, args.effort.judges())?;
+    let plan = args.layers.plan(&outputs, &args.effort)?;
     let mut preview = args.preview.as_deref().map(|host| Preview::connect(host, &args.name())).transpose()?;
     let interrupt = Interrupt::listen();
     let mut render = |read: &dyn Fn(&[Text])| {

@@ -2,7 +2,8 @@
 //!
 //! The same paths draw the same numbers as for a film alone, so that a picture with features or bands is the picture without
 //! them, bit by bit. Replicates are another cut of the samples (`film::replicates`): sample i is the sample i / R of replicate
-//! i mod R, and the picture has another noise than the one without them.
+//! i mod R, and the picture has another noise than the one without them. So has a picture in halves, the fields of a chessboard: each draws
+//! numbers of its own, so that the samples of one may decide how many the other gets.
 
 use super::{Guides, Kernel, Progress, passes};
 use crate::film::{Layers, LayersRow, REPLICATES};
@@ -17,6 +18,7 @@ pub struct Recorder<'a> {
     kernel: &'a Kernel<'a>,
     guides: Option<Guides>,
     shares: Option<BinShares>,
+    halves: bool,
 }
 
 impl<'a> Recorder<'a> {
@@ -25,17 +27,28 @@ impl<'a> Recorder<'a> {
         let lanes = kernel.scene.settings.lanes as usize;
         // The kernel has kept the spectra's values only; its nodes are quickly found again.
         let shares = bins.map(|bins| BinShares::new(bins, &Nodes::new(&kernel.needs.wavelength_density), lanes));
-        Self { kernel, guides, shares }
+        Self { kernel, guides, shares, halves: false }
+    }
+
+    /// With numbers of its own for either half of the picture.
+    pub fn in_halves(self) -> Self {
+        Self { halves: true, ..self }
     }
 
     fn row<const N: usize>(&self, row: &mut LayersRow, [x0, y]: [u32; 2], samples: &dyn Fn(usize) -> Range<u64>) {
         for (at, x) in (0..row.pixels.len()).zip(x0..) {
-            let numbers = Numbers::new(self.kernel.samples([x, y]), !row.replicates.is_empty());
+            let numbers = self.numbers([x, y], !row.replicates.is_empty());
             let mut pixel = row.pixels[at];
             let sample = |index| self.sample::<N>(row, at, [x, y], numbers.sample(index), index);
             pixel.extend(samples(at).map(sample));
             row.pixels[at] = pixel;
         }
+    }
+
+    fn numbers(&self, [x, y]: [u32; 2], replicates: bool) -> Numbers {
+        let pixel = self.kernel.samples([x, y]);
+        let pixel = if self.halves { pixel.in_half((x ^ y) & 1) } else { pixel };
+        Numbers::new(pixel, replicates)
     }
 
     fn row_of_lanes(&self) -> RenderRow<'a> {

@@ -14,7 +14,7 @@
 //! What no replicate anywhere has met, such as a caustic found by one path in a million, no spread can tell.
 
 use super::View;
-use crate::film::Replicates;
+use crate::film::{Film, Pixel, Replicates};
 use crate::spectrum::{Matrix3, Xyz, ciede2000_metric};
 use rayon::prelude::*;
 
@@ -52,29 +52,36 @@ type Covariance = [f32; 6];
 impl Noise {
     /// Of rows of `width` pixels; one with fewer than two replicates makes everything infinite.
     pub fn of(replicates: &[Replicates], width: usize, view: &View) -> Self {
-        Self::among(replicates, width, view, |_, _| true)
+        Self::among(&all(replicates, view), width, view, |_, _| true)
     }
 
     /// Of each pixel by itself alone.
     pub fn of_each(replicates: &[Replicates], width: usize, view: &View) -> Self {
-        Self::among(replicates, width, view, |at, other| at == other)
+        Self::among(&all(replicates, view), width, view, |at, other| at == other)
+    }
+
+    /// Of each pixel by itself alone, as if its samples were independent of each other. The net that they are of errs less, but about as
+    /// much less everywhere: enough to compare pixels by. Colour is taken to go along with brightness.
+    pub fn of_samples(film: &Film, view: &View) -> Self {
+        let pixels: Vec<_> = film.pixels().par_iter().map(|pixel| moments_of_samples(pixel, view)).collect();
+        Self::among(&pixels, film.window().width as usize, view, |at, other| at == other)
     }
 
     /// Of the pixels of one [`half`], by themselves alone.
     pub fn of_half(replicates: &[Replicates], width: usize, view: &View, which: usize) -> Self {
-        Self::among(replicates, width, view, |at, other| [at, other].iter().all(|at| half(*at, width) == which))
+        let in_it = |at: usize| half(at, width) == which;
+        Self::among(&all(replicates, view), width, view, |at, other| in_it(at) && in_it(other))
     }
 
     /// Of pixels that speak for themselves, and by which of their neighbours.
     fn among(
-        replicates: &[Replicates],
+        pixels: &[(Xyz, Covariance)],
         width: usize,
         view: &View,
         speaks: impl Fn(usize, usize) -> bool + Sync,
     ) -> Self {
-        let pixels: Vec<(Xyz, Covariance)> = replicates.par_iter().map(|pixel| moments(pixel, view)).collect();
         let de = |at: usize| {
-            let (mean, around) = (pixels[at].0, around(&pixels, width, at, |other| speaks(at, other)));
+            let (mean, around) = (pixels[at].0, around(pixels, width, at, |other| speaks(at, other)));
             let metric = ciede2000_metric(view.lab(mean)).after(&view.lab_slope(mean));
             trace(&metric, &around).sqrt() as f32
         };
@@ -121,6 +128,16 @@ pub fn half(at: usize, width: usize) -> usize {
 fn sharing() -> f64 {
     let side = (2 * REACH + 1) as f64;
     side * side
+}
+
+fn all(replicates: &[Replicates], view: &View) -> Vec<(Xyz, Covariance)> {
+    replicates.par_iter().map(|pixel| moments(pixel, view)).collect()
+}
+
+/// The same of samples that are taken for independent; their X, Y and Z for wholly dependent.
+fn moments_of_samples(pixel: &Pixel, view: &View) -> (Xyz, Covariance) {
+    let [x, y, z] = view.display_f64(pixel.variance_of_mean().map(f64::sqrt));
+    (view.display_f64(pixel.mean()), [x * x, y * y, z * z, x * y, y * z, z * x].map(|product| product as f32))
 }
 
 /// A pixel's mean as a display shows it, and the covariance of that mean.

@@ -49,6 +49,11 @@ impl PixelSamples {
         Self { kind: self.kind, key: own, own, place: 0 }
     }
 
+    /// The same pixel as one of a half of the picture: numbers of two halves know nothing of each other, those of one half do as ever.
+    pub fn in_half(&self, half: u32) -> Self {
+        Self { key: hash(self.key ^ hash(half ^ 0x2545_f491)), ..*self }
+    }
+
     /// The numbers of sample `index`.
     #[inline]
     pub fn sample(&self, index: u64) -> Sampler {

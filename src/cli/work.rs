@@ -1,0 +1,220 @@
+//! A render on its way: how many samples it goes on for, and which pixels get them.
+
+use super::effort::{Measure, Reached, Target};
+use super::show;
+use crate::film::{Develop, FilmError, Layers, REPLICATES};
+use crate::render::{PASS, Progress, Recorder, render_layers, render_planned};
+use crate::report::View;
+use crate::report::noise::{Bound, Noise, half};
+use crate::report::plan::{Aim, LEAST, Shares};
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+/// Mean samples that are shared out at once: what an interrupted picture is uneven by.
+const AT_ONCE: f64 = 64.0;
+
+/// Samples of every pixel before any is judged: two of each replicate.
+const FIRST: u64 = 2 * REPLICATES as u64;
+
+/// The next look is at least this many times further, and at most so many: looking costs, and early errors are guesses.
+const STEP: (f64, f64) = (1.2, 4.0);
+
+/// Aimed at so many times the samples that should do, so that one look more is seldom needed.
+const AHEAD: f64 = 1.06;
+
+/// A render on its way.
+pub struct Work<'a> {
+    pub recorder: &'a Recorder<'a>,
+    pub progress: &'a dyn Progress,
+    pub cancel: &'a AtomicBool,
+    pub quiet: bool,
+}
+
+impl Work<'_> {
+    fn cancelled(&self) -> bool {
+        self.cancel.load(Ordering::Relaxed)
+    }
+
+    /// As many samples of every pixel.
+    pub fn evenly(&self, layers: &mut Layers, samples: u64) {
+        render_layers(self.recorder, layers, 0..samples, self.progress, self.cancel);
+    }
+
+    /// Samples until the time is over; a pass that would take longer than what is left is made shorter. Says how many there are.
+    pub fn evenly_for(&self, layers: &mut Layers, time: Duration, most: u64) -> u64 {
+        let started = Instant::now();
+        let mut done = 0;
+        while done < most && !self.cancelled() {
+            let gone = started.elapsed().as_secs_f64();
+            let left = time.as_secs_f64() - gone;
+            let fit = if done == 0 { 1.0 } else { left * done as f64 / gone };
+            if done > 0 && fit < 1.0 {
+                break;
+            }
+            let pass = (fit as u64).clamp(1, u64::from(PASS)).min(most - done);
+            render_layers(self.recorder, layers, done..done + pass, self.progress, self.cancel);
+            done += pass;
+        }
+        done
+    }
+
+    /// So many samples a pixel in the mean, where they help most.
+    pub fn shared(&self, layers: &mut Layers, samples: u64, aim: Aim, develop: &Develop) -> Result<(), FilmError> {
+        let step = step(layers);
+        let mut mean = (LEAST * samples as f64 / step as f64).ceil() * step as f64;
+        self.evenly(layers, mean as u64);
+        let shares = shares(layers, aim, develop)?;
+        while mean < samples as f64 && !self.cancelled() {
+            mean = (mean + AT_ONCE).min(samples as f64);
+            self.go_on(layers, &shares.ranges(counts(layers), |_| mean, step));
+        }
+        Ok(())
+    }
+
+    /// Samples where they help most until the time is over.
+    pub fn shared_for(
+        &self,
+        layers: &mut Layers,
+        (time, most): (Duration, u64),
+        aim: Aim,
+        develop: &Develop,
+    ) -> Result<(), FilmError> {
+        let (started, step) = (Instant::now(), step(layers));
+        let mut mean = self.evenly_for(layers, time.mul_f64(LEAST), most) as f64;
+        let shares = shares(layers, aim, develop)?;
+        let mut rate = layers.film().samples() as f64 / started.elapsed().as_secs_f64();
+        while mean < most as f64 && !self.cancelled() {
+            let affordable = rate * (time.as_secs_f64() - started.elapsed().as_secs_f64());
+            let further = affordable / layers.film().pixels().len() as f64;
+            if further < 1.0 {
+                break;
+            }
+            mean = (mean + further.min(AT_ONCE)).min(most as f64);
+            let (before, clock) = (layers.film().samples(), Instant::now());
+            self.go_on(layers, &shares.ranges(counts(layers), |_| mean, step));
+            let samples = layers.film().samples() - before;
+            if samples > 0 {
+                rate = samples as f64 / clock.elapsed().as_secs_f64();
+            }
+        }
+        Ok(())
+    }
+
+    fn go_on(&self, layers: &mut Layers, plan: &[Range<u64>]) {
+        render_planned(self.recorder, layers, plan, self.progress, self.cancel);
+    }
+
+    /// Samples where they help most until the targets are met, the time is over, or `most` samples a pixel are reached.
+    pub fn for_error(
+        &self,
+        layers: &mut Layers,
+        (targets, time, most): (&[Target], Option<Duration>, u64),
+        develop: &Develop,
+    ) -> Result<Reached, FilmError> {
+        let started = Instant::now();
+        let each = REPLICATES as u64;
+        let first = (FIRST.min(most) / each).max(1) * each;
+        self.evenly(layers, first);
+        let width = layers.film().window().width as usize;
+        let shares = shares(layers, aim(targets), develop)?;
+        let mut means = [first as f64; 2];
+        loop {
+            let bounds = of_all(targets, &look(layers, develop)?);
+            let mean = 0.5 * (means[0] + means[1]);
+            self.tell(mean, targets, &bounds);
+            let affordable =
+                time.map_or(f64::INFINITY, |time| time.as_secs_f64() * mean / started.elapsed().as_secs_f64());
+            let met = excess(targets, &bounds) <= 1.0;
+            let reached = Reached { bounds, targets: targets.to_vec(), mean_samples: mean, met };
+            if mean >= most as f64 || affordable < mean * 1.05 || self.cancelled() {
+                return Ok(reached);
+            }
+            let next = self.next(layers, develop, targets, means)?;
+            if met && next == means {
+                return Ok(reached);
+            }
+            // Where either half finds the other one quiet enough, but both together are not, both go on.
+            let next = if next == means { means.map(|mean| mean * STEP.0) } else { next };
+            means = [0, 1].map(|half| next[half].min(affordable).min(most as f64).max(means[half]));
+            self.go_on(layers, &shares.ranges(counts(layers), |at| means[half(at, width)], each));
+        }
+    }
+
+    /// How many samples either half of the picture is to have, as the other half tells.
+    fn next(
+        &self,
+        layers: &Layers,
+        develop: &Develop,
+        targets: &[Target],
+        means: [f64; 2],
+    ) -> Result<[f64; 2], FilmError> {
+        let (width, view) = viewed(layers, develop)?;
+        Ok([0, 1].map(|which| {
+            let other = Noise::of_half(layers.replicates(), width, &view, 1 - which);
+            // As if it had as many samples.
+            let excess = excess(targets, &of_all(targets, &other)) * (means[1 - which] / means[which]).sqrt();
+            match excess <= 1.0 {
+                true => means[which],
+                // Errors fall at least as the root of the samples.
+                false => (means[which] * excess * excess * AHEAD).clamp(means[which] * STEP.0, means[which] * STEP.1),
+            }
+        }))
+    }
+
+    fn tell(&self, mean: f64, targets: &[Target], bounds: &[Bound]) {
+        if self.quiet {
+            return;
+        }
+        let each = |(target, bound): (&Target, &Bound)| {
+            format!("{} ≤ {:.3} of {}", target.measure, bound.promised, target.bound)
+        };
+        let all: Vec<String> = targets.iter().zip(bounds).map(each).collect();
+        show::note(format_args!("{mean:>6.0} samples a pixel: {}", all.join(", ")));
+    }
+}
+
+/// How samples are to be shared out, by what there is.
+fn shares(layers: &Layers, aim: Aim, develop: &Develop) -> Result<Shares, FilmError> {
+    let (width, view) = viewed(layers, develop)?;
+    let noise = match layers.replicates() {
+        [] => Noise::of_samples(layers.film(), &view),
+        replicates => Noise::of_each(replicates, width, &view),
+    };
+    Ok(Shares::new(&noise, width, aim))
+}
+
+/// What samples are shared out for, so that targets are met soon.
+fn aim(targets: &[Target]) -> Aim {
+    if targets.iter().all(|target| target.measure == Measure::Rmse) { Aim::Rmse } else { Aim::MeanDe }
+}
+
+/// Samples that pixels get at once: whole rounds of the replicates, or small nets.
+fn step(layers: &Layers) -> u64 {
+    if layers.replicates().is_empty() { 4 } else { REPLICATES as u64 }
+}
+
+/// Samples that each pixel has drawn.
+fn counts(layers: &Layers) -> impl Iterator<Item = u64> {
+    layers.film().pixels().iter().map(|pixel| u64::from(pixel.count()) + u64::from(pixel.rejected()))
+}
+
+fn of_all(targets: &[Target], noise: &Noise) -> Vec<Bound> {
+    targets.iter().map(|target| target.measure.of(noise)).collect()
+}
+
+/// The largest share of a target that is promised.
+fn excess(targets: &[Target], bounds: &[Bound]) -> f64 {
+    targets.iter().zip(bounds).map(|(target, bound)| bound.promised / target.bound).fold(0.0, f64::max)
+}
+
+/// The width of what there is, and how it is looked at, at the exposure of what there is.
+fn viewed(layers: &Layers, develop: &Develop) -> Result<(usize, View), FilmError> {
+    let ev = develop.exposure.ev(layers.film().pixels().iter().map(|pixel| pixel.mean()[1]))?;
+    Ok((layers.film().window().width as usize, View::new(ev, develop.white)))
+}
+
+fn look(layers: &Layers, develop: &Develop) -> Result<Noise, FilmError> {
+    let (width, view) = viewed(layers, develop)?;
+    Ok(Noise::of(layers.replicates(), width, &view))
+}
