@@ -89,8 +89,17 @@ fn a_report_is_whole_and_its_numbers_agree() {
     assert_eq!((number(found, "/reference/samples"), number(found, "/reference/replicates")), (512.0, 8.0));
     assert!(number(found, "/reference/mse") > 0.0 && number(found, "/reference/delta_e2000") > 0.0);
     let labels: Vec<_> = array(found, "variants").iter().map(|v| v["label"].as_str().unwrap_or_default()).collect();
-    let expected =
-        ["exact, 8 lanes, sobol", "schlick", "f82", "rgb-exact", "4 lanes", "1 lane", "independent", "no dispersion"];
+    let expected = [
+        "exact, 8 lanes, sobol",
+        "schlick",
+        "f82",
+        "rgb-exact",
+        "4 lanes",
+        "1 lane",
+        "independent",
+        "adaptive for rmse",
+        "no dispersion",
+    ];
     assert_eq!(labels, expected);
     // The usual way, then each of the others.
     assert_eq!(found["findings"].as_array().map(|all| all.len() >= labels.len()), Some(true));
@@ -127,8 +136,22 @@ fn what_is_only_rendered_differently_has_no_bias() {
     const UNBIASED: [&str; 4] = ["exact, 8 lanes, sobol", "4 lanes", "1 lane", "independent"];
     let mut alarms = 0;
     for seed in ["0", "1", "2"] {
-        let args =
-            ["--spp", "4,64", "--reference-spp", "2048", "--models", "exact", "--dispersion", "on", "--seed", seed];
+        let args = [
+            "--spp",
+            "4,64",
+            "--reference-spp",
+            "2048",
+            "--models",
+            "exact",
+            "--adaptive",
+            "off",
+            "--dispersion",
+            "on",
+            "--adaptive",
+            "off",
+            "--seed",
+            seed,
+        ];
         let found = found(&[&args[..], &AMPLE[..]].concat());
         for label in UNBIASED {
             let variant = variant(&found, label);
@@ -154,7 +177,18 @@ fn less_error_by_more_samples(found: &Value) {
 
 #[test]
 fn what_is_another_picture_has_a_bias() {
-    let args = ["--spp", "4,4096", "--reference-spp", "65536", "--models", "schlick,constant", "--dispersion", "on"];
+    let args = [
+        "--spp",
+        "4,4096",
+        "--reference-spp",
+        "65536",
+        "--models",
+        "schlick,constant",
+        "--adaptive",
+        "off",
+        "--dispersion",
+        "on",
+    ];
     let usual = ["--lanes", "8", "--samplers", "sobol"];
     let found = found(&[&args[..], &usual[..], &AMPLE[..]].concat());
     let bias = |label: &str| variant(&found, label)["bias"].clone();
@@ -218,7 +252,7 @@ fn a_product_has_all_combinations() {
         run(folder.path(), &[&args[..], more, &AMPLE[..]].concat());
         report(folder.path(), "out")["scenes"][0].clone()
     };
-    let axes = ["--models", "exact,schlick", "--lanes", "8,4", "--samplers", "sobol,independent"];
+    let axes = ["--models", "exact,schlick", "--lanes", "8,4", "--samplers", "sobol,independent", "--adaptive", "off"];
     let product = bench("s.toml", &[&axes[..], &["--dispersion", "on,off", "--product"]].concat());
     let labels: Vec<_> = array(&product, "variants").iter().filter_map(|v| v["label"].as_str()).collect();
     assert_eq!(labels[..5], ["exact, 8 lanes, sobol", "schlick", "4 lanes", "independent", "no dispersion"]);
@@ -256,8 +290,22 @@ fn a_reference_can_be_a_file() {
     render(&["-o", "rgb.exr"]);
     render(&["--exr-xyz", "-o", "xyz.exr"]);
     let bench = |name: &str| {
-        let args =
-            ["bench", "s.toml", "-q", "-o", "out", "--force", "--spp", "16", "--models", "exact", "--dispersion", "on"];
+        let args = [
+            "bench",
+            "s.toml",
+            "-q",
+            "-o",
+            "out",
+            "--force",
+            "--spp",
+            "16",
+            "--models",
+            "exact",
+            "--adaptive",
+            "off",
+            "--dispersion",
+            "on",
+        ];
         run(folder.path(), &[&args[..], &["--reference", name], &AMPLE[..]].concat());
         report(folder.path(), "out")["scenes"][0].clone()
     };
@@ -298,7 +346,20 @@ fn time_is_kept_and_what_it_cost_is_told() {
     let left_out: Vec<_> = array(&found, "left_out").iter().filter_map(Value::as_str).collect();
     assert!(left_out.contains(&"schlick: no time for it"), "{left_out:?}");
     assert!(left_out.contains(&"4 samples a pixel: no time for them"), "{left_out:?}");
-    let none = ["bench", "s.toml", "-q", "-o", "product", "--product", "--models", "schlick", "--samplers", "sobol"];
+    let none = [
+        "bench",
+        "s.toml",
+        "-q",
+        "-o",
+        "product",
+        "--product",
+        "--models",
+        "schlick",
+        "--samplers",
+        "sobol",
+        "--adaptive",
+        "off",
+    ];
     run(folder.path(), &[&none[..], &["--time-budget", "0.001ms", "--spp", "2"]].concat());
     let found = report(folder.path(), "product")["scenes"][0].clone();
     let left_out: Vec<_> = array(&found, "left_out").iter().filter_map(Value::as_str).collect();
@@ -322,6 +383,7 @@ fn what_cannot_be_is_refused() {
         (&["s.toml", "--lanes", "2"], &["1, 4 or 8"]),
         (&["s.toml", "--samplers", "halton"], &["sobol or independent"]),
         (&["s.toml", "--dispersion", "maybe"], &["dispersion is on or off"]),
+        (&["s.toml", "--adaptive", "on"], &["samples are shared out for dE or rmse"]),
         (&["s.toml", "--dispersion", "off,off"], &["--dispersion names one of its values twice"]),
         (&["s.toml", "--time-budget", "soon"], &["expected a time"]),
         (&["s.toml", "-o", "mine", "--force"], &["no report of `spectrel bench`"]),

@@ -8,6 +8,7 @@ use spectrel::cli::effort::{Reached, Target};
 use spectrel::cli::work::Work;
 use spectrel::film::{Develop, Exposure, Film, Gamut, Layers, Replicates, Wanted, Window};
 use spectrel::render::{Kernel, Recorder, render_layers, render_planned};
+use spectrel::report::plan::Aim;
 use spectrel::scene::{Needs, Overrides, Scene};
 use spectrel::spectrum::{Matrix3, RgbSpace, ciede2000, lab_from_xyz};
 use std::sync::LazyLock;
@@ -170,6 +171,66 @@ fn deciding_samples_bias_nothing() {
     assert!(selfish.abs() > 7.0, "a bias must be seen: {selfish}");
 }
 
+/// A render of so many samples a pixel in the mean, shared out or not.
+fn shared(seed: u64, samples: u64, aim: Option<Aim>) -> Layers {
+    let scene = scene(SCENE, &Overrides { seed: Some(seed), ..Overrides::default() });
+    let needs = Needs::of(&scene);
+    let kernel = Kernel::new(&scene, &needs);
+    let recorder = Recorder::new(&kernel, None, None).in_halves();
+    let mut layers = Layers::new([32, 32], Window::full(32, 32), Wanted::default()).expect("small");
+    let work = Work { recorder: &recorder, progress: &(), cancel: &AtomicBool::new(false), quiet: true };
+    match aim {
+        Some(aim) => work.shared(&mut layers, samples, aim, &develop(&scene)).expect("a picture"),
+        None => work.evenly(&mut layers, samples),
+    }
+    layers
+}
+
+fn pictures(seeds: std::ops::Range<u64>, samples: u64, aim: Option<Aim>) -> Vec<Vec<[f64; 3]>> {
+    let scene = scene(SCENE, &Overrides::default());
+    seeds.map(|seed| developed(shared(seed, samples, aim).film(), &scene)).collect()
+}
+
+#[test]
+fn sharing_out_biases_nothing() {
+    for aim in Aim::ALL {
+        // Few samples, so that what decides is all luck; many renders.
+        let off = off(&pictures(2000..2400, 16, Some(aim)));
+        println!("{}: {off:.2} standard errors from the truth", aim.name());
+        assert!(off.abs() < 3.5, "{} {off}", aim.name());
+    }
+}
+
+#[test]
+fn what_is_aimed_at_falls() {
+    let mean = |all: &[Vec<[f64; 3]>], error: &dyn Fn(&[[f64; 3]]) -> f64| {
+        all.iter().map(|rgb| error(rgb)).sum::<f64>() / all.len() as f64
+    };
+    let square = |rgb: &[[f64; 3]]| rmse(rgb) * rmse(rgb);
+    let difference = |rgb: &[[f64; 3]]| differences(rgb).iter().sum::<f64>();
+    // Were nothing gained, ratios would be 1 ± 0.01 (24 renders).
+    let evenly = pictures(3000..3024, 64, None);
+    for (aim, error, most) in
+        [(Aim::Rmse, &square as &dyn Fn(&[[f64; 3]]) -> f64, 0.6), (Aim::MeanDe, &difference, 0.97)]
+    {
+        let ratio = mean(&pictures(3000..3024, 64, Some(aim)), error) / mean(&evenly, error);
+        println!("{}: {ratio:.3} of what it is evenly", aim.name());
+        assert!(ratio < most, "{} {ratio}", aim.name());
+    }
+}
+
+#[test]
+fn as_many_samples_are_shared_out_as_were_asked_for() {
+    for samples in [16, 50, 64, 300] {
+        let layers = shared(5, samples, Some(Aim::Rmse));
+        let counts = || layers.film().pixels().iter().map(|pixel| u64::from(pixel.count()));
+        let mean = counts().sum::<u64>() as f64 / 1024.0;
+        assert!((mean / samples as f64 - 1.0).abs() < 0.02, "{samples}: {mean}");
+        let (least, most) = (counts().min().unwrap_or(0), counts().max().unwrap_or(0));
+        assert!(least >= samples.div_ceil(4) && most > 2 * samples && most <= 16 * samples, "{least} {most}");
+    }
+}
+
 #[test]
 fn a_limit_ends_it_and_is_told() {
     let (_, reached) = stopped(3, "dE=0.001", 64);
@@ -209,6 +270,16 @@ fn the_command_says_what_was_asked_and_what_was_reached() {
     assert!(limited.contains("asked for 0.001"), "{limited}");
     let timed = said(&["--time", "300ms"]);
     assert!(timed.contains("samples each"), "{timed}");
+    let shared = said(&["--spp", "64", "--adaptive=rmse"]);
+    assert!(shared.contains("64 samples each"), "{shared}");
+    let image = exr::prelude::read_all_flat_layers_from_file(folder.path().join("a.exr")).expect("an EXR file");
+    let about = format!("{:?}", image.attributes) + &format!("{:?}", image.layer_data[0].attributes);
+    assert!(about.contains("adaptive") && about.contains("rmse"), "{about}");
+    let channels = self::channels(&folder.path().join("a.exr"));
+    let counts = &channels.iter().find(|(known, _)| known == "samples.N").expect("how many there are").1;
+    assert!(counts.iter().any(|count| *count > 128.0) && counts.iter().all(|count| *count >= 16.0), "{counts:?}");
+    let timed = said(&["--time", "300ms", "--adaptive"]);
+    assert!(timed.contains("samples each"), "{timed}");
     let both = said(&["--time", "200ms", "--target-error", "dE=0.001", "-q"]);
     assert!(both.contains("warning: stopped before"), "{both}");
 }
@@ -223,6 +294,10 @@ fn targets_that_make_no_sense_are_refused() {
         (&["--target-error", "0.5"], "dE=BOUND, dE95=BOUND or rmse=BOUND"),
         (&["--target-error", "dE=1,dE=2"], "bounds the mean ΔE2000 twice: 1 and 2"),
         (&["--target-error", "dE=1", "--spp", "4"], "needs --spp 8 or more"),
+        (&["--adaptive", "--target-error", "dE=1"], "--adaptive and --target-error do not go together"),
+        (&["--adaptive", "--spp", "15"], "needs --spp 16 or more"),
+        (&["--adaptive=dE95"], "shared out for dE or rmse"),
+        (&["--adaptive", "--preview"], "--preview"),
         (&["--time", "0s"], "a time above 0"),
         (&["--time", "5 parsecs"], "such as 60s, 5m or 1h"),
         (&["--target-error", "dE=1", "--preview"], "--preview"),

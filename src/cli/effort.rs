@@ -75,7 +75,8 @@ impl FromStr for Target {
     }
 }
 
-fn aim(text: &str) -> Result<Aim, String> {
+/// What an option's samples are shared out for.
+pub fn aim(text: &str) -> Result<Aim, String> {
     let found = Aim::ALL.into_iter().find(|aim| aim.name().eq_ignore_ascii_case(text));
     found.ok_or_else(|| "samples are shared out for dE or rmse".into())
 }

@@ -194,9 +194,15 @@ fn left_out(needs: &Needs) {
 fn summary(film: &Film, started: Instant) {
     let seconds = started.elapsed().as_secs_f64();
     let rate = film.samples() as f64 / seconds / 1e6;
-    let each = film.samples() / film.window().pixel_count();
+    let each = samples_each(film);
     let Window { width, height, .. } = film.window();
     show::note(format_args!("{width} × {height} pixels, {each} samples each: {seconds:.1} s, {rate:.2} M samples/s"));
+}
+
+/// Samples of a pixel, of the mean one if they were shared out.
+fn samples_each(film: &Film) -> u64 {
+    let pixels = film.window().pixel_count();
+    (film.samples() + pixels / 2) / pixels
 }
 
 pub fn window([x0, y0, x1, y1]: [u32; 4]) -> Window {
@@ -237,7 +243,7 @@ pub fn metadata(scene: &Scene, identity: u64, film: &Film, developed: &Developed
         .with("scene", format!("{identity:016x}"))
         .with("size", format!("{}x{}", settings.width, settings.height))
         .with("crop", format!("{x0},{y0},{x1},{y1}"))
-        .with("samples", film.samples() / film.window().pixel_count())
+        .with("samples", samples_each(film))
         .with("seed", settings.seed)
         .with("lanes", settings.lanes)
         .with("fresnel", settings.fresnel.map_or("by material", FresnelModel::name))

@@ -66,7 +66,8 @@ impl Progress for Shown {
                 let tenth = |samples: u64| u128::from(samples) * LINES / u128::from((*total).max(1));
                 if tenth(before) != tenth(now) {
                     let seconds = started.elapsed().as_secs_f64();
-                    let left = seconds * (total - now) as f64 / now as f64;
+                    // Rounds of a shared-out render may come to somewhat more than was asked for.
+                    let left = seconds * total.saturating_sub(now) as f64 / now as f64;
                     let rate = now as f64 / seconds / 1e6;
                     show::note(format_args!(
                         "{:>3} %  {left:.0} s left  {rate:.2} M samples/s",

@@ -233,6 +233,28 @@ mod tests {
     }
 
     #[test]
+    fn halves_of_a_picture_know_nothing_of_each_other() {
+        // Errors of the two fields of a chessboard of 8 × 8 pixels, over many seeds.
+        let correlation = |halves: bool| {
+            let (mut products, mut squares) = (0.0, [0.0; 2]);
+            for seed in 0..600 {
+                let mut errors = [0.0; 2];
+                for (x, y) in (0..64).map(|i| (i % 8, i / 8)) {
+                    let (half, pixel) = ((x ^ y) & 1, PixelSamples::new(Kind::Sobol, seed, [x, y]));
+                    let pixel = if halves { pixel.in_half(half) } else { pixel };
+                    errors[half as usize] += (0..4).map(|i| edge(pixel.sample(i).uniform_2d()) - 0.45).sum::<f64>();
+                }
+                products += errors[0] * errors[1];
+                (0..2).for_each(|half| squares[half] += errors[half] * errors[half]);
+            }
+            products / (squares[0] * squares[1]).sqrt()
+        };
+        let (together, apart) = (correlation(false), correlation(true));
+        // Five standard errors of nothing: 5/√600.
+        assert!(together < -0.5 && apart.abs() < 0.204, "{together} {apart}");
+    }
+
+    #[test]
     fn errors_of_neighbours_cancel_at_low_counts() {
         let bump = |[u, v]: [f32; 2]| f64::from(u * (1.0 - u) * v);
         for samples in [1, 2, 4, 16] {

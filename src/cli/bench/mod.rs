@@ -17,6 +17,7 @@ use crate::report::View;
 use crate::report::bench::{
     Bench, HTML_FILE, JSON_FILE, Measured, SVG_FILE, Scale, Scene as Found, Standard, figure, measure, page, picture,
 };
+use crate::report::plan::Aim;
 use crate::scene::describe::SamplerName;
 use crate::scene::{Overrides, Scene, SceneError, Text};
 use clap::Args;
@@ -61,11 +62,13 @@ pub struct BenchArgs {
     /// Samplers beside `sobol` [default: independent]
     #[arg(long, value_name = "NAME,…", value_parser = ways::sampler, value_delimiter = ',')]
     samplers: Vec<SamplerName>,
+    /// Ways to share samples out beside `off`, dE or rmse; below 16 samples a pixel there is nothing to share [default: rmse]
+    #[arg(long, value_name = "AIM,…", value_parser = ways::sharing, value_delimiter = ',')]
+    adaptive: Vec<Option<Aim>>,
     /// Dispersion beside `on`; where it is off, every n is that of 587.6 nm [default: off]
     #[arg(long, value_name = "on,off", value_parser = ways::switch, value_delimiter = ',')]
     dispersion: Vec<bool>,
-    /// Try all combinations of these models, lanes, samplers and dispersion, and not only one change at a time; those that change the
-    /// fewest things go first
+    /// Try all combinations of these, and not only one change at a time; those that change the fewest things go first
     #[arg(long)]
     product: bool,
     /// Samples a pixel, separated by commas [default: 4, 16, 64, … as far as time goes]
@@ -224,7 +227,8 @@ impl Subject {
         let [width, height] = [scenes[0].settings.width, scenes[0].settings.height];
         let (development, white_balance) = (job::development(&scenes[0]), scenes[0].picture.white_balance.clone());
         let from_file = file.map(|file| from_file(file, &scenes[0])).transpose()?;
-        let swept = Sweep::begin(scenes, &plan, &tell)?.run()?;
+        let subjects = scenes.into_iter().zip(&ways).map(|(scene, way)| (scene, way.aim())).collect();
+        let swept = Sweep::begin(subjects, &plan, &tell)?.run()?;
         left_out.extend(missing(&ways, &swept, args));
         let Swept { renders, replicates, replicate_samples, .. } = swept;
         let rendered = Standard::Rendered { replicates, samples: replicate_samples.into() };

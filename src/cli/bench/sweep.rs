@@ -4,12 +4,14 @@
 //! it and a reference of [`LEAST`] × as many samples are expected to end in time, by what the renders before it took. Ways that change
 //! several things are given up, from the last on, until all that are left get to [`GOAL`] counts.
 
-use super::super::job::window;
+use super::super::job::{development, window};
+use super::super::work::Work;
 use super::clock::{Clock, Spent};
-use crate::film::{Film, Pixel, fnv1a_64};
-use crate::render::{Kernel, PASS, rays, render};
+use crate::film::{Layers, Pixel, Wanted, fnv1a_64};
+use crate::render::{Kernel, PASS, Recorder, rays};
 use crate::report::bench::Renders;
 use crate::report::difference::Image;
+use crate::report::plan::Aim;
 use crate::scene::{Needs, Scene, SceneError};
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
@@ -84,7 +86,8 @@ pub struct Swept {
 
 pub struct Sweep<'a> {
     plan: &'a Plan<'a>,
-    scenes: Vec<Scene>,
+    /// Each with what its samples are shared out for.
+    scenes: Vec<(Scene, Option<Aim>)>,
     costs: Vec<Cost>,
     started: Instant,
     tell: &'a dyn Fn(String),
@@ -92,7 +95,11 @@ pub struct Sweep<'a> {
 
 impl<'a> Sweep<'a> {
     /// The usual way first. Renders each once to see how long it takes; what there is no time to see is left out.
-    pub fn begin(scenes: Vec<Scene>, plan: &'a Plan, tell: &'a dyn Fn(String)) -> Result<Self, SceneError> {
+    pub fn begin(
+        scenes: Vec<(Scene, Option<Aim>)>,
+        plan: &'a Plan,
+        tell: &'a dyn Fn(String),
+    ) -> Result<Self, SceneError> {
         let mut sweep = Self { plan, scenes, costs: Vec::new(), started: Instant::now(), tell };
         let samples = sweep.first().min(PASS);
         // What only the first render of all pays is nobody's cost.
@@ -206,17 +213,25 @@ impl<'a> Sweep<'a> {
     }
 
     fn shoot(&mut self, way: usize, seed: u64, samples: u32) -> Result<Shot, SceneError> {
-        let scene = &mut self.scenes[way];
+        let (scene, aim) = &mut self.scenes[way];
         scene.settings.seed = seed;
         let size = [scene.settings.width, scene.settings.height];
-        let mut film = Film::new(size, window(scene.settings.crop)).map_err(SceneError::new)?;
+        let mut layers = Layers::new(size, window(scene.settings.crop), Wanted::default()).map_err(SceneError::new)?;
         let setup = Clock::start();
         let needs = Needs::of(scene);
         let kernel = Kernel::new(scene, &needs);
+        let recorder = Recorder::new(&kernel, None, None);
+        let recorder = if aim.is_some() { recorder.in_halves() } else { recorder };
+        let work = Work { recorder: &recorder, progress: &(), cancel: &AtomicBool::new(false), quiet: true };
         let (setup_seconds, before, clock) = (setup.spent().wall_seconds, rays_traced(), Clock::start());
-        render(&kernel, &mut film, 0..u64::from(samples), &(), &AtomicBool::new(false));
+        match aim {
+            None => work.evenly(&mut layers, u64::from(samples)),
+            Some(aim) => {
+                work.shared(&mut layers, u64::from(samples), *aim, &development(scene)).map_err(SceneError::new)?
+            }
+        }
         let (spent, rays) = (clock.spent(), rays_traced() - before);
-        let image = film.pixels().iter().map(Pixel::mean).map(|xyz| xyz.map(|c| c as f32)).collect();
+        let image = layers.film().pixels().iter().map(Pixel::mean).map(|xyz| xyz.map(|c| c as f32)).collect();
         Ok(Shot { image, setup_seconds, spent, rays })
     }
 }

@@ -1,8 +1,10 @@
 //! The ways to render that are tried: the usual one, the usual one with one thing changed, and on demand with several.
 
+use super::super::effort::aim;
 use super::BenchArgs;
 use crate::fresnel::{FresnelModel, RgbModel, SpectralModel};
 use crate::report::bench::{self, Change};
+use crate::report::plan::Aim;
 use crate::scene::describe::SamplerName;
 use crate::scene::{Overrides, Scene, SceneError, Text, resolve};
 use crate::spectrum::{LANES, Library};
@@ -14,6 +16,7 @@ pub const DEFAULT_MODELS: &[FresnelModel] = &[
 ];
 pub const DEFAULT_LANES: &[u32] = &[4, 1];
 pub const DEFAULT_SAMPLERS: &[SamplerName] = &[SamplerName::Independent];
+pub const DEFAULT_ADAPTIVE: &[Option<Aim>] = &[Some(Aim::Rmse)];
 pub const DEFAULT_DISPERSION: &[bool] = &[false];
 
 /// One way to render.
@@ -22,12 +25,23 @@ pub struct Way {
     model: FresnelModel,
     lanes: u32,
     sampler: SamplerName,
+    aim: Option<Aim>,
     dispersion: bool,
 }
 
 impl Way {
-    pub const USUAL: Self =
-        Self { model: FresnelModel::EXACT, lanes: LANES as u32, sampler: SamplerName::Sobol, dispersion: true };
+    pub const USUAL: Self = Self {
+        model: FresnelModel::EXACT,
+        lanes: LANES as u32,
+        sampler: SamplerName::Sobol,
+        aim: None,
+        dispersion: true,
+    };
+
+    /// What samples are shared out for.
+    pub fn aim(&self) -> Option<Aim> {
+        self.aim
+    }
 
     /// What is not as usual.
     pub fn changes(&self) -> Vec<Change> {
@@ -36,6 +50,7 @@ impl Way {
             (self.model != usual.model, Change::Model),
             (self.lanes != usual.lanes, Change::Lanes),
             (self.sampler != usual.sampler, Change::Sampler),
+            (self.aim != usual.aim, Change::Adaptive),
             (self.dispersion != usual.dispersion, Change::Dispersion),
         ];
         all.into_iter().filter(|(changed, _)| *changed).map(|(_, change)| change).collect()
@@ -55,6 +70,7 @@ impl Way {
             Change::Lanes if self.lanes == 1 => "1 lane".into(),
             Change::Lanes => format!("{} lanes", self.lanes),
             Change::Sampler => sampler_name(self.sampler).into(),
+            Change::Adaptive => format!("adaptive for {}", self.aim.map_or("nothing", Aim::name)),
             Change::Dispersion => "no dispersion".into(),
         }
     }
@@ -67,6 +83,7 @@ impl Way {
             model: self.model.name().into(),
             lanes: self.lanes,
             sampler: sampler_name(self.sampler).into(),
+            adaptive: self.aim.map(|aim| aim.name().into()),
             dispersion: self.dispersion,
         }
     }
@@ -95,12 +112,13 @@ pub fn ways(args: &BenchArgs) -> Result<Vec<Way>, SceneError> {
     let lanes = axis(usual.lanes, named("lanes", &args.lanes, DEFAULT_LANES)?);
     let samplers = axis(usual.sampler, named("samplers", &args.samplers, DEFAULT_SAMPLERS)?);
     let dispersion = axis(usual.dispersion, named("dispersion", &args.dispersion, DEFAULT_DISPERSION)?);
+    let aims = axis(usual.aim, named("adaptive", &args.adaptive, DEFAULT_ADAPTIVE)?);
     // The last of these turns fastest.
-    let all = dispersion.iter().flat_map(|&dispersion| samplers.iter().map(move |&sampler| (dispersion, sampler)));
-    let all = all.flat_map(|(dispersion, sampler)| lanes.iter().map(move |&lanes| (dispersion, sampler, lanes)));
-    let all = all.flat_map(|(dispersion, sampler, lanes)| {
-        models.iter().map(move |&model| Way { model, lanes, sampler, dispersion })
-    });
+    let all = dispersion.iter().map(|&dispersion| Way { dispersion, ..usual });
+    let all = all.flat_map(|way| aims.iter().map(move |&aim| Way { aim, ..way }));
+    let all = all.flat_map(|way| samplers.iter().map(move |&sampler| Way { sampler, ..way }));
+    let all = all.flat_map(|way| lanes.iter().map(move |&lanes| Way { lanes, ..way }));
+    let all = all.flat_map(|way| models.iter().map(move |&model| Way { model, ..way }));
     let most = if args.product { usize::MAX } else { 1 };
     let mut ways: Vec<Way> = all.filter(|way| way.changes().len() <= most).collect();
     ways.sort_by_key(|way| way.changes().len());
@@ -137,6 +155,11 @@ pub fn sampler(text: &str) -> Result<SamplerName, String> {
     let all = [SamplerName::Sobol, SamplerName::Independent];
     let found = all.into_iter().find(|&sampler| sampler_name(sampler) == text);
     found.ok_or_else(|| "a sampler is sobol or independent".into())
+}
+
+/// What an option's samples are shared out for.
+pub fn sharing(text: &str) -> Result<Option<Aim>, String> {
+    if text == "off" { Ok(None) } else { aim(text).map(Some) }
 }
 
 /// Whether an option's dispersion is on.

@@ -47,7 +47,7 @@ fn other(usual: &Variant, variant: &Variant) -> String {
     let plural = is_plural(&variant.way);
     let mut parts = vec![time(variant, plural)];
     parts.extend(variant.bias.as_ref().and_then(|bias| bias_of(variant, bias, plural)));
-    if variant.way.changes_any(&[Change::Lanes, Change::Sampler]) {
+    if variant.way.changes_any(&[Change::Lanes, Change::Sampler, Change::Adaptive]) {
         parts.extend(noise(usual, variant, plural));
     }
     let last = parts.pop().unwrap_or_default();
@@ -78,6 +78,9 @@ fn changed(change: Change, old: &Way, new: &Way) -> String {
         Change::Lanes if new.lanes == 1 => format!("1 lane instead of {}", old.lanes),
         Change::Lanes => format!("{} lanes instead of {}", new.lanes, old.lanes),
         Change::Sampler => format!("{} samples instead of {}", new.sampler, old.sampler),
+        Change::Adaptive => {
+            format!("sharing samples out for {} instead of evenly", new.adaptive.as_deref().unwrap_or_default())
+        }
         Change::Dispersion => "leaving dispersion out".into(),
     }
 }
@@ -185,6 +188,7 @@ mod tests {
             model: "f82".into(),
             lanes: 4,
             sampler: "sobol".into(),
+            adaptive: Some("rmse".into()),
             dispersion: true,
         };
         let [value, low, high] = time;
@@ -209,6 +213,8 @@ mod tests {
             said(&[Change::Lanes], [1.5, 1.4, 1.6], Verdict::Indistinguishable),
             "4 lanes instead of 8 take 50 % more time (95 %: 40 … 60 %)."
         );
+        let shared = said(&[Change::Adaptive], [1.3; 3], Verdict::Indistinguishable);
+        assert!(shared.starts_with("sharing samples out for rmse instead of evenly takes 30 % more time"), "{shared}");
         assert!(said(&[Change::Dispersion], [1.5; 3], Verdict::Identical).ends_with("changes not one sample."));
         assert_eq!(
             said(&[Change::Model, Change::Lanes, Change::Dispersion], [1.5, 1.4, 1.6], Verdict::Different),

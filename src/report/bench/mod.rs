@@ -109,6 +109,7 @@ pub enum Change {
     Model,
     Lanes,
     Sampler,
+    Adaptive,
     Dispersion,
 }
 
@@ -124,6 +125,8 @@ pub struct Way {
     /// Wavelengths a path.
     pub lanes: u32,
     pub sampler: String,
+    /// What samples are shared out for; null if all pixels get as many.
+    pub adaptive: Option<String>,
     pub dispersion: bool,
 }
 
