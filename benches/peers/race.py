@@ -70,13 +70,18 @@ class Subject:
         # Mitsuba's observer, so that nothing but the masking term is different on purpose.
         self.library = WORK / "library"
         self.usual, self.independent = self.renderer(path), self.renderer(copied(name, "independent"))
-        self.owns = {"spectrel": self.usual, "spectrel, independent": self.independent}
+        self.owns = {
+            results.USUAL: self.usual,
+            results.ADAPTIVE: self.renderer(path, adaptive=True),
+            results.INDEPENDENT: self.independent,
+        }
         if name == "diamond":
             self.owns[results.DISPERSIVE] = self.renderer(path, *own.DISPERSIVE)
+            self.owns[results.BOTH] = self.renderer(path, *own.DISPERSIVE, adaptive=True)
         self.peers = {variant: Worker(variant, path, views, options.threads) for variant in VARIANTS}
 
-    def renderer(self, path, *more):
-        return renderers.Spectrel(path, self.library, ["--threads", self.options.threads, *more])
+    def renderer(self, path, *more, adaptive=False):
+        return renderers.Spectrel(path, self.library, ["--threads", self.options.threads, *more], adaptive)
 
     def contestants(self, large):
         """By name: a function from samples and seed to a render."""
@@ -139,7 +144,7 @@ def measure(name, options):
     subject = Subject(name, options)
     try:
         common, dispersive = subject.references()
-        renders = turns(subject, lambda who: dispersive if who == results.DISPERSIVE else common)
+        renders = turns(subject, lambda who: dispersive if who in (results.DISPERSIVE, results.BOTH) else common)
         raw = raw_turns(subject)
         width, height = subject.large
         loading = [subject.usual.loading("--width", width, "--height", height) for _ in range(3)]

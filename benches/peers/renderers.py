@@ -29,11 +29,15 @@ class Render:
     wall: float
 
 
-class Spectrel:
-    """With a folder of data to be searched before its own, and options of its command line."""
+# Below so many samples a pixel there is nothing to share out.
+LEAST_SHARED = 16
 
-    def __init__(self, path, library=None, options=()):
-        self.path = path
+
+class Spectrel:
+    """With a folder of data to be searched before its own, and options of its command line; samples shared out or not."""
+
+    def __init__(self, path, library=None, options=(), adaptive=False):
+        self.path, self.adaptive = path, adaptive
         self.options = [*(["--library", library] if library else []), *options]
 
     def command(self, output, *more):
@@ -42,16 +46,22 @@ class Spectrel:
     def render(self, samples, seed, *more):
         with tempfile.TemporaryDirectory() as folder:
             output = Path(folder) / "picture.exr"
-            command = self.command(output, "--spp", samples, "--seed", seed, *more)
+            shared = ["--adaptive=rmse"] if self.adaptive and samples >= LEAST_SHARED else []
+            command = self.command(output, "--spp", samples, "--seed", seed, *shared, *more)
             before = children(), time.perf_counter()
             subprocess.run(command, check=True)
             cpu, wall = children() - before[0], time.perf_counter() - before[1]
-            # XYZ stands in channels called R, G and B, see `src/image/exr.rs`.
-            return Render(np.array(mi.Bitmap(str(output)), dtype=np.float64), cpu, wall)
+            return Render(color(mi.Bitmap(str(output))), cpu, wall)
 
     def loading(self, *more):
         """One sample of one pixel: what is not rendering."""
         return self.render(1, 0, "--crop", "0,0,1,1", *more)
+
+
+def color(bitmap):
+    """XYZ, which stands in channels called R, G and B (`src/image/exr.rs`), of a picture that may have others too."""
+    layer = next(layer for name, layer in bitmap.split() if name == "<root>")
+    return np.array(layer, dtype=np.float64)
 
 
 class Mitsuba:
