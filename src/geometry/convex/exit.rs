@@ -6,6 +6,7 @@
 //! reflection the ray moves away from its facet, n·d ≤ 0, which drops out by itself.
 
 use super::Convex;
+use super::bundle::Bundle;
 use glam::Vec3;
 
 /// Points or directions of several rays, by component so that loops over rays become vector instructions.
@@ -55,7 +56,7 @@ pub struct Exits<const N: usize> {
 
 /// The least room in front of a plane. An origin on the plane or, by rounding, beyond it is this far from it: as good as
 /// nothing beside the smallest solid there is (1e-15), and among several such planes the one that the ray heads for most wins.
-const TOUCHING: f32 = 1e-30;
+pub(super) const TOUCHING: f32 = 1e-30;
 
 /// Width of the vectors of the processors that we build for.
 const VECTOR: usize = 8;
@@ -94,6 +95,35 @@ impl Block {
     pub const EMPTY: Self = Self { x: [0.0; BLOCK], y: [0.0; BLOCK], z: [0.0; BLOCK], offset: [f32::INFINITY; BLOCK] };
 }
 
+/// The exits of rays among the planes met so far.
+#[derive(Clone, Copy)]
+struct Nearest<const N: usize> {
+    /// rate / room.
+    nearness: [f32; N],
+    /// As f32, which vectors choose like the rest; integers were chosen lane by lane, at more than twice the instructions.
+    plane: [f32; N],
+}
+
+impl<const N: usize> Nearest<N> {
+    #[inline(always)]
+    fn meet(&mut self, number: u32, Spread { x, y, z, offset }: &Spread, o: &Points<N>, d: &Points<N>) {
+        let mut near = [0.0f32; N];
+        for (lane, near) in near.iter_mut().enumerate() {
+            let k = lane % VECTOR;
+            let rate = x[k] * d.x[lane] + y[k] * d.y[lane] + z[k] * d.z[lane];
+            let room = offset[k] - (x[k] * o.x[lane] + y[k] * o.y[lane] + z[k] * o.z[lane]);
+            *near = rate / if room > TOUCHING { room } else { TOUCHING };
+        }
+        let number = number as f32;
+        for (plane, (near, nearest)) in self.plane.iter_mut().zip(near.iter().zip(&self.nearness)) {
+            *plane = if near > nearest { number } else { *plane };
+        }
+        for (nearest, near) in self.nearness.iter_mut().zip(near) {
+            *nearest = if near > *nearest { near } else { *nearest };
+        }
+    }
+}
+
 impl Convex {
     /// Where rays that are inside the solid leave it; origins in world space, directions of unit length.
     ///
@@ -115,34 +145,42 @@ impl Convex {
             o.y[lane] -= self.center.y;
             o.z[lane] -= self.center.z;
         }
-        let mut nearness = [0.0f32; N];
-        let mut facet = [0u32; N];
-        for (number, Spread { x, y, z, offset }) in (0u32..).zip(&self.spread) {
-            if number >= FIRST_CHECK && number.is_multiple_of(CHECK_EVERY) && within(&o, d, &nearness, offset[0]) {
-                break;
-            }
-            for lane in 0..N / FEW * FEW {
-                let k = lane % VECTOR;
-                let rate = x[k] * d.x[lane] + y[k] * d.y[lane] + z[k] * d.z[lane];
-                let room = offset[k] - (x[k] * o.x[lane] + y[k] * o.y[lane] + z[k] * o.z[lane]);
-                let near = rate / if room > TOUCHING { room } else { TOUCHING };
-                facet[lane] = if near > nearness[lane] { number } else { facet[lane] };
-                nearness[lane] = if near > nearness[lane] { near } else { nearness[lane] };
-            }
+        let mut nearest = Nearest { nearness: [0.0; N], plane: [0.0; N] };
+        match Bundle::new(&o, d, self.radius) {
+            _ if N < FEW => {}
+            Some(bundle) => self.possible_exits(&bundle, |number| {
+                if let Some(plane) = self.spread.get(number as usize) {
+                    nearest.meet(number, plane, &o, d);
+                }
+            }),
+            None => self.all_exits(&mut nearest, &o, d),
         }
+        let Nearest { nearness, plane } = nearest;
         let mut t = nearness.map(distance);
-        facet = facet.map(|plane| self.facet_of(plane));
+        let mut facet = plane.map(|plane| self.facet_of(plane as u32));
         for lane in N / FEW * FEW..N {
             (t[lane], facet[lane]) = self.exit_one(origins.get(lane), directions.get(lane));
         }
         Exits { t, facet }
     }
 
+    /// Meets planes until no more can be exits.
+    #[inline]
+    fn all_exits<const N: usize>(&self, nearest: &mut Nearest<N>, o: &Points<N>, d: &Points<N>) {
+        for (number, plane) in (0u32..).zip(&self.spread) {
+            let look = number >= FIRST_CHECK && number.is_multiple_of(CHECK_EVERY);
+            if look && within(o, d, &nearest.nearness, plane.offset[0]) {
+                break;
+            }
+            nearest.meet(number, plane, o, d);
+        }
+    }
+
     /// One ray, several planes at once; bit for bit what [`Convex::exit_lanes`] gives.
     pub(super) fn exit_one(&self, origin: Vec3, direction: Vec3) -> (f32, u32) {
         let (d, o) = (direction, origin - self.center);
         let mut nearness = [0.0f32; BLOCK];
-        let mut blocks = [0u32; BLOCK];
+        let mut blocks = [0.0f32; BLOCK];
         for (number, block) in self.blocks.iter().enumerate() {
             let planes = (number * BLOCK) as u32;
             if planes >= FIRST_CHECK && planes.is_multiple_of(CHECK_EVERY) {
@@ -155,13 +193,13 @@ impl Convex {
                 let rate = block.x[k] * d.x + block.y[k] * d.y + block.z[k] * d.z;
                 let room = block.offset[k] - (block.x[k] * o.x + block.y[k] * o.y + block.z[k] * o.z);
                 let near = rate / if room > TOUCHING { room } else { TOUCHING };
-                blocks[k] = if near > nearness[k] { number as u32 } else { blocks[k] };
+                blocks[k] = if near > nearness[k] { number as f32 } else { blocks[k] };
                 nearness[k] = if near > nearness[k] { near } else { nearness[k] };
             }
         }
         let mut best = (0.0, 0u32);
         for k in 0..BLOCK {
-            let facet = blocks[k] * BLOCK as u32 + k as u32;
+            let facet = blocks[k] as u32 * BLOCK as u32 + k as u32;
             if nearness[k] > best.0 || (nearness[k] == best.0 && best.0 > 0.0 && facet < best.1) {
                 best = (nearness[k], facet);
             }
@@ -178,21 +216,19 @@ impl Convex {
 
 /// Planes met before the first look whether the rest can be left out, and between one look and the next: a look costs as
 /// much as three planes.
-const FIRST_CHECK: u32 = 48;
-const CHECK_EVERY: u32 = 16;
+pub(super) const FIRST_CHECK: u32 = 48;
+pub(super) const CHECK_EVERY: u32 = 16;
 
 /// Whether all rays have an exit nearer to the centre than `offset`, by more than rounding: origins are from the centre.
 #[inline]
 fn within<const N: usize>(o: &Points<N>, d: &Points<N>, nearness: &[f32; N], offset: f32) -> bool {
-    let mut farthest = 0.0f32;
-    for (lane, near) in nearness.iter().enumerate() {
+    let limit = offset * offset * (1.0 - 1e-5);
+    nearness.iter().enumerate().fold(true, |all, (lane, near)| {
         let t = 1.0 / near;
         let (x, y, z) = (o.x[lane] + d.x[lane] * t, o.y[lane] + d.y[lane] * t, o.z[lane] + d.z[lane] * t);
-        let squared = x * x + y * y + z * z;
         // Infinite or no number at all where there is no exit yet.
-        farthest = if squared <= farthest { farthest } else { squared };
-    }
-    farthest < offset * offset * (1.0 - 1e-5)
+        all & (x * x + y * y + z * z < limit)
+    })
 }
 
 /// From the largest rate / room back to a distance.

@@ -4,6 +4,7 @@
 //! same planes serve eight rays at once. Planes are kept relative to a centre, so that a small stone far from the origin
 //! loses nothing but the rounding of the ray's own origin.
 
+mod bundle;
 mod exit;
 mod meet;
 mod polyhedron;

@@ -1,0 +1,122 @@
+//! Rays that run beside each other, and which planes can be the exit of any of them.
+//!
+//! The wavelengths of a path in a gem start in one point and drift apart slowly: one or two of its facets come into question for
+//! all of them. One ray is met with eight planes at once; how far the others may stand beside it bounds what they meet:
+//!
+//! ```text
+//! rate ∈ [n·d − δ, n·d + δ]     room ∈ [offset − n·o − ε, offset − n·o + ε]     |dᵢ − d| ≤ δ, |oᵢ − o| ≤ ε
+//! ```
+//!
+//! Every ray's exit has at least the largest of all planes' least rate / room; a plane whose largest rate / room is below that
+//! is nobody's exit. δ and ε hold what rounding may add to both, so that the planes left over give every ray its exit to the bit.
+
+use super::Convex;
+use super::exit::{BLOCK, Block, CHECK_EVERY, FIRST_CHECK, Points, TOUCHING};
+use glam::Vec3;
+
+/// Directions farther apart than this are met by all planes: too many would be left over.
+const APART: f32 = 0.25;
+
+/// One of several rays, and how far the others may be from it.
+pub(super) struct Bundle {
+    origin: Vec3,
+    direction: Vec3,
+    /// Of origins.
+    beside: f32,
+    /// Of directions.
+    apart: f32,
+}
+
+impl Bundle {
+    /// Rays by origins from the centre of a solid; none if they are far apart or not finite.
+    #[inline]
+    pub fn new<const N: usize>(o: &Points<N>, d: &Points<N>, radius: f32) -> Option<Self> {
+        let (origin, direction) = (o.get(N / 2), d.get(N / 2));
+        let apart = farthest(d, direction);
+        let near = apart < APART;
+        if !near {
+            return None;
+        }
+        let beside = farthest(o, origin);
+        let size = radius + origin.length() + beside;
+        // Sums of three products are right to 4 · 2⁻²⁴ of their terms, which add up to less than twice their lengths.
+        let bundle = Self { origin, direction, beside: beside * 1.00001 + size * 2e-6, apart: apart * 1.00001 + 2e-6 };
+        bundle.beside.is_finite().then_some(bundle)
+    }
+
+    /// n·d and offset − n·o of the middle ray.
+    #[inline(always)]
+    fn meet(&self, block: &Block, k: usize) -> (f32, f32) {
+        let (o, d) = (self.origin, self.direction);
+        let rate = block.x[k] * d.x + block.y[k] * d.y + block.z[k] * d.z;
+        (rate, block.offset[k] - (block.x[k] * o.x + block.y[k] * o.y + block.z[k] * o.z))
+    }
+}
+
+/// The largest distance of points from one; no number if one of them is none.
+#[inline]
+fn farthest<const N: usize>(points: &Points<N>, from: Vec3) -> f32 {
+    let mut squared = [0.0f32; N];
+    for (lane, squared) in squared.iter_mut().enumerate() {
+        let (x, y, z) = (points.x[lane] - from.x, points.y[lane] - from.y, points.z[lane] - from.z);
+        *squared = x * x + y * y + z * z;
+    }
+    squared.iter().fold(0.0, |most: f32, &one| if one <= most { most } else { one }).sqrt()
+}
+
+impl Convex {
+    /// Calls `meet` with the planes that can be exits, in their order.
+    #[inline]
+    pub(super) fn possible_exits(&self, bundle: &Bundle, mut meet: impl FnMut(u32)) {
+        let (least, blocks) = self.least_nearness(bundle);
+        for (number, block) in self.blocks[..blocks].iter().enumerate() {
+            // Below 0 where the plane is nobody's exit.
+            let mut spare = [0.0f32; BLOCK];
+            for (k, spare) in spare.iter_mut().enumerate() {
+                let (rate, room) = bundle.meet(block, k);
+                let room = room - bundle.beside;
+                *spare = rate + bundle.apart - least * if room > TOUCHING { room } else { TOUCHING };
+            }
+            if spare.iter().fold(false, |any, &spare| any | (spare >= 0.0)) {
+                (0..BLOCK).filter(|&k| spare[k] >= 0.0).for_each(|k| meet((number * BLOCK + k) as u32));
+            }
+        }
+    }
+
+    /// A nearness that each ray's exit has at least, and how many blocks of planes come into question.
+    #[inline]
+    fn least_nearness(&self, bundle: &Bundle) -> (f32, usize) {
+        let mut least = [0.0f32; BLOCK];
+        for (number, block) in self.blocks.iter().enumerate() {
+            let planes = (number * BLOCK) as u32;
+            if planes >= FIRST_CHECK && planes.is_multiple_of(CHECK_EVERY) {
+                let least = largest(&least);
+                if bundle.is_within(1.0 / least, block.offset[0]) {
+                    return (least, number);
+                }
+            }
+            for (k, least) in least.iter_mut().enumerate() {
+                let (rate, room) = bundle.meet(block, k);
+                let room = room + bundle.beside;
+                let near = (rate - bundle.apart) / if room > TOUCHING { room } else { TOUCHING };
+                *least = if near > *least { near } else { *least };
+            }
+        }
+        (largest(&least), self.blocks.len())
+    }
+}
+
+impl Bundle {
+    /// Whether no plane as far from the centre as `offset` can cut rays short that end at `t`.
+    #[inline]
+    fn is_within(&self, t: f32, offset: f32) -> bool {
+        let end = (self.origin + self.direction * t).length() + self.beside + self.apart * t;
+        end < offset * (1.0 - 1e-5)
+    }
+}
+
+/// Less by what rounding may have added.
+#[inline]
+fn largest(numbers: &[f32; BLOCK]) -> f32 {
+    numbers.iter().fold(0.0, |most: f32, &one| if one > most { one } else { most }) * (1.0 - 1e-6)
+}
