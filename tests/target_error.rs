@@ -221,6 +221,8 @@ fn what_is_aimed_at_falls() {
 
 #[test]
 fn as_many_samples_are_shared_out_as_were_asked_for() {
+    // Too few to be shared out.
+    assert!(shared(5, 3, Some(Aim::Rmse)).film().pixels().iter().all(|pixel| pixel.count() == 3));
     for samples in [16, 50, 64, 300] {
         let layers = shared(5, samples, Some(Aim::Rmse));
         let counts = || layers.film().pixels().iter().map(|pixel| u64::from(pixel.count()));

@@ -62,8 +62,9 @@ impl Work<'_> {
     /// So many samples a pixel in the mean, where they help most.
     pub fn shared(&self, layers: &mut Layers, samples: u64, aim: Aim, develop: &Develop) -> Result<(), FilmError> {
         let step = step(layers);
-        let mut mean = (LEAST * samples as f64 / step as f64).ceil() * step as f64;
-        self.evenly(layers, mean as u64);
+        let first = ((LEAST * samples as f64 / step as f64).ceil() as u64 * step).min(samples);
+        self.evenly(layers, first);
+        let mut mean = first as f64;
         let shares = shares(layers, aim, develop)?;
         while mean < samples as f64 && !self.cancelled() {
             mean = (mean + AT_ONCE).min(samples as f64);
