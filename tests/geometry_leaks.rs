@@ -165,6 +165,34 @@ fn light_that_bounces_for_long_stays_inside() {
     }
 }
 
+/// Wavelengths that have hardly parted, towards edges and corners that part them: all planes but a few are left out for them.
+#[test]
+fn rays_beside_each_other_leave_where_each_would_alone() {
+    let mut random = Random(11);
+    for solid in [Brilliant::default().solid().unwrap(), random_convex(), Convex::cuboid(Vec3::X, Vec3::ONE).unwrap()] {
+        for i in 0..200_000 {
+            let spread = 10f32.powf(-8.0 * random.unit());
+            let corner = solid.vertices()[random.below(solid.vertices().len())];
+            let [a, b] = solid.edges()[random.below(solid.edges().len())].map(|v| solid.vertices()[v as usize]);
+            let (from, to) = (a + (b - a) * random.unit(), if i % 2 == 0 { corner } else { a });
+            let middle = if i % 3 == 0 { from } else { solid.center() + (from - solid.center()) * random.unit() };
+            let (mut origins, mut directions) = (Points::<8>::splat(middle), Points::<8>::splat(Vec3::Z));
+            for lane in 0..8 {
+                let moved = middle + (solid.center() - middle) * (spread * random.unit());
+                origins.set(lane, if i % 5 == 0 { middle } else { moved });
+                let toward = (to - middle).normalize_or(Vec3::X) + random.direction() * (0.3 * spread);
+                directions.set(lane, toward.normalize());
+            }
+            let exits = solid.exit_lanes(&origins, &directions);
+            for lane in 0..8 {
+                let (origin, direction) = (Points::<1>::splat(origins.get(lane)), Points::splat(directions.get(lane)));
+                let alone = solid.exit_lanes(&origin, &direction);
+                assert_eq!((exits.t[lane], exits.facet[lane]), (alone.t[0], alone.facet[0]), "{i} {lane} {spread}");
+            }
+        }
+    }
+}
+
 #[test]
 fn lanes_that_are_not_numbers_do_not_disturb_others() {
     let solid = Brilliant::default().solid().unwrap();

@@ -28,7 +28,7 @@ pub(super) struct Bundle {
 }
 
 impl Bundle {
-    /// Rays by origins from the centre of a solid; none if they are far apart or not finite.
+    /// Rays by origins from the centre of a solid; none if they are far apart or infinite. Those that are no numbers have no exit.
     #[inline]
     pub fn new<const N: usize>(o: &Points<N>, d: &Points<N>, radius: f32) -> Option<Self> {
         let (origin, direction) = (o.get(N / 2), d.get(N / 2));
@@ -53,7 +53,7 @@ impl Bundle {
     }
 }
 
-/// The largest distance of points from one; no number if one of them is none.
+/// The largest distance of points from one; those that are no numbers do not count, unless all are none.
 #[inline]
 fn farthest<const N: usize>(points: &Points<N>, from: Vec3) -> f32 {
     let mut squared = [0.0f32; N];
