@@ -130,7 +130,7 @@ fn a_report_is_whole_and_its_numbers_agree() {
     assert_eq!(fs::read_dir(folder.path().join("out")).expect("a folder").count(), 3);
 }
 
-/// Chance calls one of 40 renders different that is not: of twelve, three or more in one set of seeds of 300.
+/// Chance calls one of 40 renders different that is not: of fifteen, three or more in one set of seeds of 180.
 #[test]
 fn what_is_only_rendered_differently_has_no_bias() {
     const UNBIASED: [&str; 5] = ["exact, 8 lanes, sobol", "4 lanes", "1 lane", "independent", "adaptive for rmse"];

@@ -101,7 +101,7 @@ pub fn duration(text: &str) -> Result<Duration, String> {
 const LIMIT: u64 = 1 << 16;
 
 /// Fewer samples a pixel are not shared out: a quarter of them would tell too little of the noise.
-const LEAST_SHARED: u32 = 16;
+pub const LEAST_SHARED: u32 = 16;
 
 /// How long a render is to go on.
 #[derive(Clone, Debug, PartialEq)]

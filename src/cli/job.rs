@@ -74,7 +74,7 @@ impl Job<'_> {
             }
             Effort::Samples { samples, aim: Some(aim) } => work.shared(layers, samples, aim, &develop),
             Effort::Time { time, most, aim: None } => {
-                work.evenly_for(layers, time, most);
+                work.evenly_for(layers, 0, time, most);
                 Ok(())
             }
             Effort::Time { time, most, aim: Some(aim) } => work.shared_for(layers, (time, most), aim, &develop),

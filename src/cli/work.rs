@@ -11,7 +11,7 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// Mean samples that are shared out at once: what an interrupted picture is uneven by.
+/// Mean samples that are shared out at once, beyond what the noisiest pixels have: what an interrupted picture is uneven by.
 const AT_ONCE: f64 = 64.0;
 
 /// Samples of every pixel before any is judged: two of each replicate.
@@ -41,15 +41,15 @@ impl Work<'_> {
         render_layers(self.recorder, layers, 0..samples, self.progress, self.cancel);
     }
 
-    /// Samples until the time is over; a pass that would take longer than what is left is made shorter. Says how many there are.
-    pub fn evenly_for(&self, layers: &mut Layers, time: Duration, most: u64) -> u64 {
-        let started = Instant::now();
-        let mut done = 0;
+    /// Samples from the `done`th on until the time is over; a pass that would take longer than what is left is made shorter. Says how many
+    /// there are.
+    pub fn evenly_for(&self, layers: &mut Layers, mut done: u64, time: Duration, most: u64) -> u64 {
+        let (started, before) = (Instant::now(), done);
         while done < most && !self.cancelled() {
             let gone = started.elapsed().as_secs_f64();
             let left = time.as_secs_f64() - gone;
-            let fit = if done == 0 { 1.0 } else { left * done as f64 / gone };
-            if done > 0 && fit < 1.0 {
+            let fit = if done == before { 1.0 } else { left * (done - before) as f64 / gone };
+            if done > before && fit < 1.0 {
                 break;
             }
             let pass = (fit as u64).clamp(1, u64::from(PASS)).min(most - done);
@@ -64,8 +64,8 @@ impl Work<'_> {
         let step = step(layers);
         let first = ((LEAST * samples as f64 / step as f64).ceil() as u64 * step).min(samples);
         self.evenly(layers, first);
-        let mut mean = first as f64;
-        let shares = shares(layers, aim, develop)?;
+        let shares = self.shares(layers, aim, develop, first as f64 / samples as f64)?;
+        let mut mean = first as f64 / shares.largest();
         while mean < samples as f64 && !self.cancelled() {
             mean = (mean + AT_ONCE).min(samples as f64);
             self.go_on(layers, &shares.ranges(counts(layers), |_| mean, step));
@@ -82,12 +82,18 @@ impl Work<'_> {
         develop: &Develop,
     ) -> Result<(), FilmError> {
         let (started, step) = (Instant::now(), step(layers));
-        let mut mean = self.evenly_for(layers, time.mul_f64(LEAST), most) as f64;
-        let shares = shares(layers, aim, develop)?;
+        let left = || time.saturating_sub(started.elapsed());
+        let first = self.evenly_for(layers, 0, time.mul_f64(LEAST), most);
+        if first < 2 * step {
+            // Too few to tell anything of the noise.
+            self.evenly_for(layers, first, left(), most);
+            return Ok(());
+        }
+        let shares = self.shares(layers, aim, develop, LEAST)?;
         let mut rate = layers.film().samples() as f64 / started.elapsed().as_secs_f64();
+        let mut mean = first as f64 / shares.largest();
         while mean < most as f64 && !self.cancelled() {
-            let affordable = rate * (time.as_secs_f64() - started.elapsed().as_secs_f64());
-            let further = affordable / layers.film().pixels().len() as f64;
+            let further = rate * left().as_secs_f64() / layers.film().pixels().len() as f64;
             if further < 1.0 {
                 break;
             }
@@ -100,6 +106,19 @@ impl Work<'_> {
             }
         }
         Ok(())
+    }
+
+    /// How samples are to be shared out, by what there is.
+    fn shares(&self, layers: &Layers, aim: Aim, develop: &Develop, least: f64) -> Result<Shares, FilmError> {
+        let (width, view) = viewed(layers, develop)?;
+        let noise = match layers.replicates() {
+            [] => {
+                debug_assert!(self.recorder.draws_in_halves(), "pixels would decide for themselves");
+                Noise::of_samples(layers.film(), &view)
+            }
+            replicates => Noise::of_each(replicates, width, &view),
+        };
+        Ok(Shares::new(&noise, width, aim, least))
     }
 
     fn go_on(&self, layers: &mut Layers, plan: &[Range<u64>]) {
@@ -118,26 +137,31 @@ impl Work<'_> {
         let first = (FIRST.min(most) / each).max(1) * each;
         self.evenly(layers, first);
         let width = layers.film().window().width as usize;
-        let shares = shares(layers, aim(targets), develop)?;
+        let shares = self.shares(layers, aim(targets), develop, LEAST)?;
         let mut means = [first as f64; 2];
         loop {
             let bounds = of_all(targets, &look(layers, develop)?);
-            let mean = 0.5 * (means[0] + means[1]);
+            let mean = layers.film().samples() as f64 / layers.film().pixels().len() as f64;
             self.tell(mean, targets, &bounds);
             let affordable =
                 time.map_or(f64::INFINITY, |time| time.as_secs_f64() * mean / started.elapsed().as_secs_f64());
             let met = excess(targets, &bounds) <= 1.0;
             let reached = Reached { bounds, targets: targets.to_vec(), mean_samples: mean, met };
-            if mean >= most as f64 || affordable < mean * 1.05 || self.cancelled() {
+            if affordable < mean * 1.05 || self.cancelled() {
                 return Ok(reached);
             }
-            let next = self.next(layers, develop, targets, means)?;
-            if met && next == means {
+            let within = |wanted: [f64; 2]| -> [f64; 2] {
+                std::array::from_fn(|half| wanted[half].min(affordable).min(most as f64).max(means[half]))
+            };
+            let mut next = within(self.next(layers, develop, targets, means)?);
+            if next == means && !met {
+                // Where either half finds the other one quiet enough, but both together are not, both go on.
+                next = within(means.map(|mean| mean * STEP.0));
+            }
+            if next == means {
                 return Ok(reached);
             }
-            // Where either half finds the other one quiet enough, but both together are not, both go on.
-            let next = if next == means { means.map(|mean| mean * STEP.0) } else { next };
-            means = [0, 1].map(|half| next[half].min(affordable).min(most as f64).max(means[half]));
+            means = next;
             self.go_on(layers, &shares.ranges(counts(layers), |at| means[half(at, width)], each));
         }
     }
@@ -173,16 +197,6 @@ impl Work<'_> {
         let all: Vec<String> = targets.iter().zip(bounds).map(each).collect();
         show::note(format_args!("{mean:>6.0} samples a pixel: {}", all.join(", ")));
     }
-}
-
-/// How samples are to be shared out, by what there is.
-fn shares(layers: &Layers, aim: Aim, develop: &Develop) -> Result<Shares, FilmError> {
-    let (width, view) = viewed(layers, develop)?;
-    let noise = match layers.replicates() {
-        [] => Noise::of_samples(layers.film(), &view),
-        replicates => Noise::of_each(replicates, width, &view),
-    };
-    Ok(Shares::new(&noise, width, aim))
 }
 
 /// What samples are shared out for, so that targets are met soon.

@@ -17,7 +17,7 @@ const BRIGHT: f32 = 33_554_432.0;
 /// So many samples are gathered at most.
 const FULL: u32 = 16;
 
-/// XYZ and nothing: four numbers are one register.
+/// X, Y, Z and Z again: four numbers are one register.
 type Four = [f64; 4];
 
 /// Adds samples to a pixel: the same, bit for bit, as to [`add`](Pixel::add) each of them.

@@ -66,7 +66,7 @@ impl Ray {
     }
 }
 
-/// What a ray meets first: what is known before the surface is looked at, and enough where light ends.
+/// What a ray meets first: what is known before the surface is looked at (a preliminary intersection).
 /// [`World::surface`](super::World::surface) makes a [`Hit`] of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Met {

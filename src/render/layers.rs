@@ -45,6 +45,11 @@ impl<'a> Recorder<'a> {
         }
     }
 
+    /// Whether the halves' numbers are independent.
+    pub fn draws_in_halves(&self) -> bool {
+        self.halves
+    }
+
     fn numbers(&self, [x, y]: [u32; 2], replicates: bool) -> Numbers {
         let pixel = self.kernel.samples([x, y]);
         let pixel = if self.halves { pixel.in_half((x ^ y) & 1) } else { pixel };

@@ -6,9 +6,10 @@
 //! A pixel whose own first samples decided how many it gets would be biased: where they happen to be alike, it gets few, and what is rare in
 //! it is missed for good. Here σₚ is that of the pixels around it that lie in the other half of the picture, the other fields of a
 //! chessboard ([`half`]), and of the first samples alone. Halves draw independent numbers (`render::Recorder::in_halves`; replicates do
-//! anyway), so the number of a pixel's samples and their values are independent but for the common factor. When to stop is decided for
-//! either half by the noise of the other ([`super::noise`]), for the same reason: a picture that stops when it happens to look quiet is
-//! darker in the mean. So a pixel's mean is what it is without any plan (`tests/target_error.rs`, `tests/adaptive.rs`).
+//! anyway), and each is shared out by itself, so that the number of a pixel's samples depends on nothing that its half has drawn: its
+//! mean is what it is without any plan (`tests/target_error.rs`). Only the exposure by which ΔE is seen may be that of the whole picture.
+//! When to go on is decided for either half by the noise of the other ([`super::noise`]), for the same reason: a picture that stops when
+//! it happens to look quiet is darker in the mean. That both are quiet enough together ends it.
 
 use super::noise::{Noise, half};
 use std::ops::Range;
@@ -16,9 +17,10 @@ use std::ops::Range;
 /// Pixels around one that speak for it: those of the other half among 5 × 5.
 const REACH: usize = 2;
 
-/// No pixel gets less than this share of the mean number, so that what its surroundings do not show is found too, nor more than this
-/// many times of it.
+/// No pixel gets less than this share of the mean number, so that what its surroundings do not show is found too.
 pub const LEAST: f64 = 0.25;
+
+/// Nor more than this many times of it.
 const MOST: f64 = 16.0;
 
 /// What is to fall fastest.
@@ -61,30 +63,21 @@ impl Aim {
 pub struct Shares(Vec<f64>);
 
 impl Shares {
-    /// By the noise of each pixel by itself after equally many samples, in rows of `width`.
-    pub fn new(noise: &Noise, width: usize, aim: Aim) -> Self {
+    /// By the noise of each pixel by itself after equally many samples, in rows of `width`; none gets less than `least`, up to 1.
+    pub fn new(noise: &Noise, width: usize, aim: Aim, least: f64) -> Self {
         let errors = aim.errors(noise);
-        Self::bounded((0..errors.len()).map(|at| libm::pow(around(&errors, width, at), aim.power())).collect())
+        let mut shares = vec![1.0; errors.len()];
+        for which in 0..2 {
+            let places: Vec<usize> = (0..errors.len()).filter(|at| half(*at, width) == which).collect();
+            let wishes = places.iter().map(|at| libm::pow(around(&errors, width, *at), aim.power())).collect();
+            places.iter().zip(bounded(wishes, least)).for_each(|(at, share)| shares[*at] = share);
+        }
+        Self(shares)
     }
 
-    /// In these proportions, but for those that get as little or as much as may be.
-    fn bounded(wishes: Vec<f64>) -> Self {
-        let mean = mean(wishes.iter().copied());
-        if !(mean > 0.0 && mean.is_finite()) {
-            return Self(vec![1.0; wishes.len()]);
-        }
-        // Where only few wish for anything, the others get what is left.
-        let share = |factor: f64| move |wish: &f64| (factor * wish.max(1e-6 * mean)).clamp(LEAST, MOST);
-        let (mut low, mut high) = (0.0, 1.0 / mean);
-        while self::mean(wishes.iter().map(share(high))) < 1.0 {
-            high *= 2.0;
-        }
-        for _ in 0..50 {
-            let middle = 0.5 * (low + high);
-            let few = self::mean(wishes.iter().map(share(middle))) < 1.0;
-            if few { low = middle } else { high = middle }
-        }
-        Self(wishes.iter().map(share(high)).collect())
+    /// The largest of them.
+    pub fn largest(&self) -> f64 {
+        self.0.iter().copied().fold(1.0, f64::max)
     }
 
     /// Samples of each pixel from those that it has to its share of what is the mean where it lies, in whole steps; never fewer than it has.
@@ -94,13 +87,33 @@ impl Shares {
     }
 }
 
-/// Root mean square of the pixels around one that are of the other half.
+/// Shares of the mean 1 in the proportions of wishes, but for those that get as little or as much as may be.
+fn bounded(wishes: Vec<f64>, least: f64) -> Vec<f64> {
+    let mean = mean(wishes.iter().copied());
+    if !(mean > 0.0 && mean.is_finite()) {
+        return vec![1.0; wishes.len()];
+    }
+    // Where only few wish for anything, the others get what is left.
+    let share = |factor: f64| move |wish: &f64| (factor * wish.max(1e-6 * mean)).clamp(least, MOST);
+    let (mut low, mut high) = (0.0, 1.0 / mean);
+    while self::mean(wishes.iter().map(share(high))) < 1.0 {
+        high *= 2.0;
+    }
+    for _ in 0..50 {
+        let middle = 0.5 * (low + high);
+        let few = self::mean(wishes.iter().map(share(middle))) < 1.0;
+        if few { low = middle } else { high = middle }
+    }
+    wishes.iter().map(share(high)).collect()
+}
+
+/// Root mean square of the pixels around one that are of the other half; those that know nothing of their error do not count.
 fn around(errors: &[f64], width: usize, at: usize) -> f64 {
     let (x, y, height) = (at % width, at / width, errors.len() / width);
     let (mut sum, mut count) = (0.0, 0.0);
     for j in y.saturating_sub(REACH)..=(y + REACH).min(height - 1) {
         let row = j * width + x.saturating_sub(REACH)..=j * width + (x + REACH).min(width - 1);
-        for other in row.filter(|other| half(*other, width) != half(at, width)) {
+        for other in row.filter(|other| half(*other, width) != half(at, width) && errors[*other].is_finite()) {
             sum += errors[other] * errors[other];
             count += 1.0;
         }
@@ -126,26 +139,29 @@ mod tests {
     fn noisy_places_get_more_and_a_pixel_does_not_speak_for_its_half() {
         let mut errors = vec![1.0; 11 * 11];
         errors[5 * 11 + 5] = 1000.0;
-        let shares = Shares::new(&noise(&errors), 11, Aim::MeanDe).0;
-        for own in [5 * 11 + 5, 6 * 11 + 6, 5 * 11 + 7] {
-            assert!(shares[own] < 1.0 && shares[5 * 11 + 6] > 4.0 * shares[own]);
-        }
+        let shares = Shares::new(&noise(&errors), 11, Aim::MeanDe, LEAST).0;
+        let own = |at: &usize| half(*at, 11) == half(5 * 11 + 5, 11);
+        assert!((0..121).filter(own).all(|at| (shares[at] - 1.0).abs() < 1e-12), "{shares:?}");
+        assert!(shares[5 * 11 + 6] > 4.0 * shares[1], "{shares:?}");
         assert!((mean(shares.iter().copied()) - 1.0).abs() < 1e-12);
-        // Against a pixel of its half far away, whatever its own noise was.
-        let against = |own: f32| {
+        // Whatever was found in its half, the shares of a half are the same.
+        let of_half = |own: f32| {
             let mut errors: Vec<f32> = (0..121).map(|i| 1.0 + 0.01 * i as f32).collect();
             errors[5 * 11 + 5] = own;
-            let shares = Shares::new(&noise(&errors), 11, Aim::Rmse).0;
-            shares[5 * 11 + 5] / shares[0]
+            let shares = Shares::new(&noise(&errors), 11, Aim::Rmse, LEAST).0;
+            (0..121).filter(|at| half(*at, 11) == 0).map(|at| shares[at]).collect::<Vec<_>>()
         };
-        assert!((against(0.001) - against(2.0)).abs() < 1e-12);
+        assert_eq!(of_half(0.001), of_half(1000.0));
+        // One that nobody knows anything of is as if it were not there.
+        assert!(of_half(1.0).iter().any(|share| *share != 1.0));
+        assert_eq!(of_half(f32::INFINITY), of_half(1.0));
     }
 
     #[test]
     fn shares_keep_their_mean_and_their_bounds_whatever_is_wished() {
         let (wide, one_of_many) = (vec![1e-30, 1.0, 1e30, 2.0], (0..100).map(|i| f64::from(i / 99)).collect());
         for wishes in [wide, vec![0.0, 0.0, 0.0, 1.0], one_of_many, (1..100).map(f64::from).collect()] {
-            let Shares(shares) = Shares::bounded(wishes.clone());
+            let shares = bounded(wishes.clone(), LEAST);
             assert!((mean(shares.iter().copied()) - 1.0).abs() < 1e-12, "{shares:?}");
             assert!(shares.iter().all(|share| (LEAST..=MOST).contains(share)), "{shares:?}");
             let ascends = |i: &usize| wishes[*i] > wishes[*i - 1] || shares[*i] <= shares[*i - 1];
@@ -162,6 +178,6 @@ mod tests {
 
     #[test]
     fn a_picture_without_noise_is_shared_evenly() {
-        assert_eq!(Shares::new(&noise(&[0.0; 9]), 3, Aim::Rmse), Shares(vec![1.0; 9]));
+        assert_eq!(Shares::new(&noise(&[0.0; 9]), 3, Aim::Rmse, LEAST), Shares(vec![1.0; 9]));
     }
 }

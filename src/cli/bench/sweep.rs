@@ -4,6 +4,7 @@
 //! it and a reference of [`LEAST`] × as many samples are expected to end in time, by what the renders before it took. Ways that change
 //! several things are given up, from the last on, until all that are left get to [`GOAL`] counts.
 
+use super::super::effort::LEAST_SHARED;
 use super::super::job::{development, window};
 use super::super::work::Work;
 use super::clock::{Clock, Spent};
@@ -224,10 +225,10 @@ impl<'a> Sweep<'a> {
         let recorder = if aim.is_some() { recorder.in_halves() } else { recorder };
         let work = Work { recorder: &recorder, progress: &(), cancel: &AtomicBool::new(false), quiet: true };
         let (setup_seconds, before, clock) = (setup.spent().wall_seconds, rays_traced(), Clock::start());
-        match aim {
+        match aim.filter(|_| samples >= LEAST_SHARED) {
             None => work.evenly(&mut layers, u64::from(samples)),
             Some(aim) => {
-                work.shared(&mut layers, u64::from(samples), *aim, &development(scene)).map_err(SceneError::new)?
+                work.shared(&mut layers, u64::from(samples), aim, &development(scene)).map_err(SceneError::new)?
             }
         }
         let (spent, rays) = (clock.spent(), rays_traced() - before);

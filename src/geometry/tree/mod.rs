@@ -9,8 +9,9 @@
 //!
 //! What a ray costs, on a ball of 1.03 M triangles (`benches/peers/embree`, one thread of a Zen 5 server): camera rays 112 ns for some
 //! 7 nodes and 1 block, diffuse ones 179 for 10 and 2, random ones 320 for 6 and 1. Embree 3.13, robust, takes 1.07, 0.91 and,
-//! from one run to the next, 0.75 to 0.88 times that. With the point and the normals in double precision it is 0.93, 0.90 and 0.74 to 0.84. The rest is a chain from one box test to the next,
-//! and memory: half of a random ray's time is spent on the first touch of nodes and blocks.
+//! from one run to the next, 0.75 to 0.88 times that. With the point and the normals in double precision it is 0.93, 0.90 and 0.74
+//! to 0.84. The rest is a chain from one box test to the next, and memory: half of a random ray's time is spent on the first touch of
+//! nodes and blocks.
 //!
 //! A structure that is written field by field and read whole, as a copy does, is not forwarded from the processor's store buffer: the load
 //! waits until the stores are done. Handing rays over by reference and results in registers took a camera's ray from 147 to 112 ns, with the
