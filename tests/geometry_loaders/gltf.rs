@@ -276,6 +276,14 @@ fn mistakes_are_named() {
         &in_cube("accessor 0: 9 elements from byte 0 reach beyond the 96 bytes of view 0"),
     );
     wrong(
+        |root| root["accessors"][1]["count"] = (1u64 << 31).into(),
+        &in_cube("accessor 1: 2147483648 elements from byte 0 reach beyond the 72 bytes of view 1"),
+    );
+    wrong(
+        |root| root["accessors"][1]["count"] = u64::MAX.into(),
+        &in_cube("accessor 1: 18446744073709551615 elements from byte 0 reach beyond the 72 bytes of view 1"),
+    );
+    wrong(
         |root| root["accessors"][0]["type"] = "VEC2".into(),
         &in_cube("accessor 0: it is of type VEC2, expected VEC3"),
     );
