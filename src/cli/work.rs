@@ -85,8 +85,10 @@ impl Work<'_> {
         let left = || time.saturating_sub(started.elapsed());
         let first = self.evenly_for(layers, 0, time.mul_f64(LEAST), most);
         if first < 2 * step {
-            // Too few to tell anything of the noise.
-            self.evenly_for(layers, first, left(), most);
+            // Too few to tell anything of the noise; and one more may take longer than what is left.
+            if left().as_secs_f64() * first as f64 >= started.elapsed().as_secs_f64() {
+                self.evenly_for(layers, first, left(), most);
+            }
             return Ok(());
         }
         let shares = self.shares(layers, aim, develop, LEAST)?;

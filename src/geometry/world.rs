@@ -258,7 +258,7 @@ impl World {
         Probe { ray, origin_error, leaves_solid }
     }
 
-    /// Point and normals of what a ray has met.
+    /// Point and normals of what a ray has met in this world.
     #[inline]
     pub fn surface(&self, ray: &Ray, met: &Met) -> Hit {
         let &Met { t, shape, side, facet, .. } = met;
