@@ -87,8 +87,12 @@ fn brilliant_exit_by_world(bencher: Bencher, girdle_facets: u32) {
     let solid = brilliant(girdle_facets);
     let rays = inner_rays(&solid);
     let world = World::new(vec![solid.into()]).expect("one shape");
-    let departs =
-        spectrel::geometry::Departure::Surface { shape: ShapeId(0), facet: 0, side: spectrel::geometry::Side::Inside };
+    let departs = spectrel::geometry::Departure::Surface {
+        shape: ShapeId(0),
+        facet: 0,
+        side: spectrel::geometry::Side::Inside,
+        place: 0,
+    };
     bencher.counter(ItemsCount::new(RAYS)).bench(|| {
         let mut sum = 0;
         for &(origin, direction) in black_box(&rays) {

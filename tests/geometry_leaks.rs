@@ -63,7 +63,7 @@ fn attack(solid: Convex, rays: usize) {
             _ => a + (b - a) * u + (c - a) * (v * (1.0 - u)),
         };
         let Some(direction) = (target - origin).try_normalize() else { continue };
-        let departs = Departure::Surface { shape: ShapeId(0), facet: 0, side: Side::Inside };
+        let departs = Departure::Surface { shape: ShapeId(0), facet: 0, side: Side::Inside, place: 0 };
         let ray = Ray { origin, direction, departs };
         let hit = world.closest(&ray, f32::INFINITY).expect("a leak");
         assert_eq!(hit.side, Side::Inside);
@@ -134,7 +134,7 @@ fn sphere() {
                 _ => -out + random.direction() * 0.99,
             };
             let Some(direction) = inward.try_normalize() else { continue };
-            let departs = Departure::Surface { shape: ShapeId(0), facet: 0, side: Side::Inside };
+            let departs = Departure::Surface { shape: ShapeId(0), facet: 0, side: Side::Inside, place: 0 };
             let hit = world.closest(&Ray { origin, direction, departs }, f32::INFINITY).expect("a leak");
             assert!(hit.side == Side::Inside && hit.t >= 0.0);
             let off = ((origin + direction * hit.t) - sphere.center()).length() / sphere.radius() - 1.0;

@@ -52,6 +52,7 @@ fn ray(random: &mut Random, shapes: usize) -> Ray {
             shape: ShapeId((random.unit() * shapes as f32) as u32),
             facet: 0,
             side: if x < 0.9 { Side::Outside } else { Side::Inside },
+            place: 0,
         },
     };
     let mut direction = random.direction();
@@ -233,7 +234,10 @@ fn light_under_a_stone_on_a_table_goes_through_both() {
                 assert!(exit.shape == table_id);
                 continue;
             }
-            let inside = Ray { departs: Departure::Surface { shape: stone_id, facet: 0, side: Side::Inside }, ..start };
+            let inside = Ray {
+                departs: Departure::Surface { shape: stone_id, facet: 0, side: Side::Inside, place: 0 },
+                ..start
+            };
             let exit = world.closest(&inside, f32::INFINITY).unwrap();
             assert_eq!((exit.shape, exit.side), (stone_id, Side::Inside));
             let local_exit = turn.inverse().transform_point3(exit.point);
@@ -462,7 +466,7 @@ proptest! {
         }
         let side = if inside { Side::Inside } else { Side::Outside };
         let world = World::new(shapes).unwrap();
-        for departs in [Departure::Free, Departure::Surface { shape: ShapeId(id), facet: 0, side }] {
+        for departs in [Departure::Free, Departure::Surface { shape: ShapeId(id), facet: 0, side, place: 0 }] {
             for direction in [direction, direction.normalize_or_zero()] {
                 let ray = Ray { origin, direction, departs };
                 let hit = world.closest(&ray, t_max);

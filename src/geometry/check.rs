@@ -35,6 +35,8 @@ pub(super) fn length(what: &'static str, value: f64) -> Result<(), GeometryError
 pub(super) struct Transform {
     pub matrix: DMat3,
     pub translation: DVec3,
+    /// The matrix is that of no change: what is only moved is not multiplied by ones and zeros.
+    only_moves: bool,
 }
 
 impl Transform {
@@ -44,21 +46,30 @@ impl Transform {
             return Err(GeometryError::NotFinite { what: "the transform" });
         }
         let [x, y, z, t] = columns.map(|c| Vec3::from(c).as_dvec3());
-        Ok(Self { matrix: DMat3::from_cols(x, y, z), translation: t })
+        Ok(Self::of(DMat3::from_cols(x, y, z), t))
     }
 
+    fn of(matrix: DMat3, translation: DVec3) -> Self {
+        Self { matrix, translation, only_moves: matrix == DMat3::IDENTITY }
+    }
+
+    #[inline]
     pub fn point(&self, p: DVec3) -> DVec3 {
         self.vector(p) + self.translation
     }
 
+    #[inline]
     pub fn vector(&self, v: DVec3) -> DVec3 {
+        if self.only_moves {
+            return v;
+        }
         self.matrix.x_axis * v.x + self.matrix.y_axis * v.y + self.matrix.z_axis * v.z
     }
 
     /// This map after another one.
     pub fn after(&self, first: &Self) -> Self {
         let [x, y, z] = [first.matrix.x_axis, first.matrix.y_axis, first.matrix.z_axis].map(|axis| self.vector(axis));
-        Self { matrix: DMat3::from_cols(x, y, z), translation: self.point(first.translation) }
+        Self::of(DMat3::from_cols(x, y, z), self.point(first.translation))
     }
 
     /// The way back; none if the map flattens space.
@@ -66,7 +77,7 @@ impl Transform {
         let (x, y, z) = (self.matrix.x_axis, self.matrix.y_axis, self.matrix.z_axis);
         let rows = [y.cross(z), z.cross(x), x.cross(y)].map(|row| row / self.determinant());
         let matrix = DMat3::from_cols(rows[0], rows[1], rows[2]).transpose();
-        let mut back = Self { matrix, translation: DVec3::ZERO };
+        let mut back = Self::of(matrix, DVec3::ZERO);
         back.translation = -back.vector(self.translation);
         (back.matrix.is_finite() && back.translation.is_finite()).then_some(back)
     }
@@ -81,9 +92,11 @@ impl Transform {
         self.matrix.x_axis.dot(self.matrix.y_axis.cross(self.matrix.z_axis))
     }
 
-    /// Cofactor matrix times `n`: normals transform so, up to the determinant.
-    pub fn cofactor(&self, n: DVec3) -> DVec3 {
+    /// How normals turn, and change their lengths; outwards stays outwards under mirrors. (The matrix of cofactors, with the sign of the
+    /// determinant.)
+    pub fn of_normals(&self) -> Self {
         let (x, y, z) = (self.matrix.x_axis, self.matrix.y_axis, self.matrix.z_axis);
-        y.cross(z) * n.x + z.cross(x) * n.y + x.cross(y) * n.z
+        let sign = self.determinant().signum();
+        Self::of(DMat3::from_cols(y.cross(z) * sign, z.cross(x) * sign, x.cross(y) * sign), DVec3::ZERO)
     }
 }

@@ -35,8 +35,8 @@ pub enum Departure {
     /// In the middle of nowhere: a camera.
     Free,
     /// On the surface of `shape`, into its `side`: `Outside` for a reflection off a solid and for light that leaves it,
-    /// `Inside` for light that enters it and for a reflection within. `facet` as in [`Hit::facet`].
-    Surface { shape: ShapeId, facet: u32, side: Side },
+    /// `Inside` for light that enters it and for a reflection within. `facet` and `place` as in [`Hit`].
+    Surface { shape: ShapeId, facet: u32, side: Side, place: u32 },
 }
 
 /// A point on a light that a shadow ray goes to: a facet of a shape, as in [`Hit::facet`].
@@ -62,7 +62,7 @@ impl Ray {
 
     /// A ray that leaves the point of a hit, into the given side of the surface.
     pub fn leaving(hit: &Hit, side: Side, direction: Vec3) -> Self {
-        Self { origin: hit.point, direction, departs: Departure::Surface { shape: hit.shape, facet: hit.facet, side } }
+        Self { origin: hit.point, direction, departs: hit.departure(side) }
     }
 }
 
@@ -70,13 +70,12 @@ impl Ray {
 /// [`World::surface`](super::World::surface) makes a [`Hit`] of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Met {
-    /// As in [`Hit`], and so the next three.
+    /// As in [`Hit`], and so all others.
     pub t: f32,
     pub shape: ShapeId,
     pub side: Side,
     pub facet: u32,
-    /// As in [`Crossing`].
-    pub(super) place: u32,
+    pub place: u32,
 }
 
 /// Where a ray meets a surface.
@@ -90,6 +89,9 @@ pub struct Hit {
     /// Facet of a convex solid, in the order of [`Convex::facets`](super::Convex::facets), or triangle of a mesh; 0 for
     /// other shapes.
     pub facet: u32,
+    /// Where a mesh keeps that triangle for rays, which saves a search in memory when a ray leaves it. A hint: a wrong one costs
+    /// time, and 0 will do.
+    pub place: u32,
     /// The point, put back onto the surface: good to a few roundings of its coordinates however far the ray came.
     pub point: Vec3,
     /// Geometric unit normal: out of a solid, to the front of a flat shape, whichever side the ray arrives on.
@@ -99,6 +101,13 @@ pub struct Hit {
 }
 
 impl Hit {
+    /// A ray's departure from here, into the given side of the surface.
+    #[inline]
+    pub fn departure(&self, side: Side) -> Departure {
+        let &Self { shape, facet, place, .. } = self;
+        Departure::Surface { shape, facet, side, place }
+    }
+
     /// The geometric normal on the side on which the ray arrived.
     #[inline]
     pub fn outward(&self) -> Vec3 {
@@ -166,7 +175,7 @@ pub(super) struct Crossing {
     pub slack: f32,
     pub side: Side,
     pub facet: u32,
-    /// Where a mesh keeps the triangle for rays; 0 for other shapes.
+    /// As in [`Hit`]; 0 for shapes that are no meshes.
     pub place: u32,
 }
 

@@ -12,6 +12,8 @@ pub(super) struct Leaving {
     pub direction: Vec3,
     pub facet: u32,
     pub side: Side,
+    /// As in [`Hit`](super::Hit).
+    pub place: u32,
 }
 
 /// A shape in world space. A box is a [`Convex`] of six half-spaces.

@@ -105,12 +105,18 @@ impl World {
                 }
             }
             Some(tree) => {
-                tree.visit(&BoxRay::new(ray.origin, ray.direction, probe.origin_error), limit, |shape, limit| {
-                    let (nearer, limit) =
-                        if asked(shape) { self.nearer(&probe, shape, best, limit) } else { (best, limit) };
-                    best = nearer;
-                    limit
-                })
+                let boxes = BoxRay::new(ray.origin, ray.direction, probe.origin_error);
+                tree.visit(
+                    &boxes,
+                    limit,
+                    || (),
+                    |(), shape, limit| {
+                        let (nearer, limit) =
+                            if asked(shape) { self.nearer(&probe, shape, best, limit) } else { (best, limit) };
+                        best = nearer;
+                        limit
+                    },
+                )
             }
         }
         best.map(Nearest::met)
@@ -195,7 +201,8 @@ impl World {
         // Two solids of one mesh may touch each other.
         if let Some(Shape::Mesh(mesh)) = self.shape(far.shape) {
             let side = far.side.opposite();
-            let leaving = Leaving { origin: far.point, direction: ray.direction, facet: far.facet, side };
+            let &Hit { facet, place, .. } = far;
+            let leaving = Leaving { origin: far.point, direction: ray.direction, facet, side, place };
             let again = mesh.again(&leaving, within(mesh.extent()) - far.t);
             candidate(far.shape.0, again.map(|crossing| Crossing { t: far.t + crossing.t, ..crossing }));
         }
@@ -232,7 +239,10 @@ impl World {
     #[inline]
     fn visit(&self, ray: &Ray, probe: &Probe, limit: f32, mut each: impl FnMut(u32, f32) -> f32) {
         match &self.tree {
-            Some(tree) => tree.visit(&BoxRay::new(ray.origin, ray.direction, probe.origin_error), limit, each),
+            Some(tree) => {
+                let boxes = BoxRay::new(ray.origin, ray.direction, probe.origin_error);
+                tree.visit(&boxes, limit, || (), |(), shape, limit| each(shape, limit));
+            }
             None => {
                 let mut limit = limit;
                 for shape in 0..self.shapes.len() as u32 {
@@ -261,10 +271,10 @@ impl World {
     /// Point and normals of what a ray has met in this world.
     #[inline]
     pub fn surface(&self, ray: &Ray, met: &Met) -> Hit {
-        let &Met { t, shape, side, facet, .. } = met;
+        let &Met { t, shape, side, facet, place } = met;
         let near = ray.origin + ray.direction * t;
         let Surface { point, normal, shading } = self.shapes[shape.0 as usize].surface(near, met);
-        Hit { t, shape, side, facet, point, normal, shading }
+        Hit { t, shape, side, facet, place, point, normal, shading }
     }
 }
 
@@ -283,8 +293,8 @@ fn is_among(departures: &[Departure], shape: u32) -> bool {
 fn leaving(ray: &Ray, departs: Departure) -> Option<(ShapeId, Leaving)> {
     match departs {
         Departure::Free => None,
-        Departure::Surface { shape, facet, side } => {
-            Some((shape, Leaving { origin: ray.origin, direction: ray.direction, facet, side }))
+        Departure::Surface { shape, facet, side, place } => {
+            Some((shape, Leaving { origin: ray.origin, direction: ray.direction, facet, side, place }))
         }
     }
 }

@@ -70,7 +70,7 @@ impl<const P: u32> Tracer<'_, P> {
             if path.media.across(solid, hit.side == Side::Outside) != path.media {
                 break;
             }
-            also.push(Departure::Surface { shape: hit.shape, facet: hit.facet, side: hit.side.opposite() });
+            also.push(hit.departure(hit.side.opposite()));
             rays::count(1);
             hit = self.scene.world.closest_beyond(&path.ray, also, f32::INFINITY)?;
         }
@@ -211,7 +211,7 @@ impl<const P: u32> Tracer<'_, P> {
         let Some(exits) = exits else { return Outcome::Ended };
         let rank = self.scene.object(entry.hit.shape).rank;
         path.media = path.media.across(Filling { rank, medium: entry.interface.medium }, false);
-        let departs = Departure::Surface { shape: entry.hit.shape, facet: 0, side: Side::Outside };
+        let departs = entry.hit.departure(Side::Outside);
         let ray = |lane| Ray { origin: exits.origins.get(lane), direction: exits.directions.get(lane), departs };
         if N == 1 {
             path.ray = ray(0);

@@ -130,16 +130,13 @@ impl Convex {
     /// Under any affine map with an inverse.
     pub fn transformed(&self, affine: &Affine3A) -> Result<Self, GeometryError> {
         let transform = check::Transform::new(affine)?;
-        let sign = transform.determinant().signum();
         if transform.determinant() == 0.0 {
             return Err(GeometryError::Singular);
         }
+        let normals = transform.of_normals();
         let corner = |face: usize| self.exact.vertices[self.exact.faces[face].corners[0]];
         let planes: Vec<Plane> = (0..self.exact.faces.len())
-            .map(|i| {
-                let normal = transform.cofactor(self.exact.planes[i].normal) * sign;
-                Plane::through(transform.point(corner(i)), normal)
-            })
+            .map(|i| Plane::through(transform.point(corner(i)), normals.vector(self.exact.planes[i].normal)))
             .collect();
         let mut solid = Polyhedron::new(&planes).map_err(|error| match error {
             GeometryError::BadPlane { .. } => GeometryError::Singular,

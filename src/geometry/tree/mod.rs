@@ -136,16 +136,29 @@ impl Tree {
     }
 
     /// Shows `visit` the items whose boxes the ray meets within `t_max`, roughly near first. `visit` returns the new
-    /// `t_max`; a negative one ends it.
+    /// `t_max`; a negative one ends it. What else it wants to know of the ray, `prepare` works out, for rays alone that meet
+    /// anything of the topmost node: most that leave a floor do not.
     #[inline(always)]
-    pub fn visit(&self, ray: &BoxRay, mut t_max: f32, mut visit: impl FnMut(u32, f32) -> f32) {
+    pub fn visit<R>(
+        &self,
+        ray: &BoxRay,
+        mut t_max: f32,
+        prepare: impl FnOnce() -> R,
+        mut visit: impl FnMut(&R, u32, f32) -> f32,
+    ) {
+        let Some(top) = self.nodes.first() else { return };
+        let met = top.meet(ray, t_max);
+        if met.hits == 0 {
+            return;
+        }
+        let prepared = prepare();
         let mut stack = Stack::new();
-        let mut next = 0;
+        let mut next = child(stack.push(&met.nears, &top.children, met.hits));
         loop {
             if next == NOTHING {
                 // A ray that is no number meets all boxes, empty ones too.
             } else if next & ITEM != 0 {
-                t_max = visit(next & !ITEM, t_max);
+                t_max = visit(&prepared, next & !ITEM, t_max);
                 if t_max < 0.0 {
                     return;
                 }
