@@ -171,7 +171,8 @@ pub(super) struct Probe<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Crossing {
     pub t: f32,
-    /// Bound on the rounding error of `t`; infinite where a mesh is met that the ray does not leave, since nobody asks for it.
+    /// Bound on the rounding error of `t`; infinite where a mesh is met but for the inside of one that the ray leaves, since nobody asks
+    /// for it.
     pub slack: f32,
     pub side: Side,
     pub facet: u32,

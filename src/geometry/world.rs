@@ -15,10 +15,19 @@ const LIST: usize = 6;
 #[derive(Clone, Debug)]
 pub struct World {
     shapes: Vec<Shape>,
+    /// Of each shape.
+    solidity: Vec<Solidity>,
     bounds: Bounds,
     /// Largest extent of a shape.
     largest: f32,
     tree: Option<Tree>,
+}
+
+/// What the origin of each ray is judged by, which takes two roots for a flat shape.
+#[derive(Clone, Copy, Debug, Default)]
+struct Solidity {
+    extent: f32,
+    is_solid: bool,
 }
 
 /// The nearest crossing so far.
@@ -45,8 +54,10 @@ impl World {
         let boxes: Vec<Bounds> = shapes.iter().map(Shape::bounds).collect();
         let bounds = boxes.iter().fold(Bounds::EMPTY, |all, b| all.union(b));
         let tree = (shapes.len() > LIST).then(|| Tree::new(&boxes));
-        let largest = shapes.iter().map(Shape::extent).fold(0.0, f32::max);
-        Ok(Self { shapes, bounds, largest, tree })
+        let solidity = |shape: &Shape| Solidity { extent: shape.extent(), is_solid: shape.is_solid() };
+        let solidity: Vec<Solidity> = shapes.iter().map(solidity).collect();
+        let largest = solidity.iter().map(|shape| shape.extent).fold(0.0, f32::max);
+        Ok(Self { shapes, solidity, bounds, largest, tree })
     }
 
     pub fn shapes(&self) -> &[Shape] {
@@ -221,7 +232,12 @@ impl World {
     }
 
     fn extent(&self, shape: ShapeId) -> f32 {
-        self.shape(shape).map_or(0.0, Shape::extent)
+        self.solidity(shape).extent
+    }
+
+    #[inline]
+    fn solidity(&self, shape: ShapeId) -> Solidity {
+        self.solidity.get(shape.0 as usize).copied().unwrap_or_default()
     }
 
     /// The shapes whose boxes meet a box, in their order.
@@ -261,8 +277,8 @@ impl World {
         let (origin_error, leaves_solid) = match ray.departs {
             Departure::Free => (0.0, false),
             Departure::Surface { shape, side, .. } => {
-                let (extent, solid) = self.shape(shape).map_or((0.0, false), |s| (s.extent(), s.is_solid()));
-                (4.0 * f32::EPSILON * (sum_abs(ray.origin) + extent), solid && side == Side::Outside)
+                let Solidity { extent, is_solid } = self.solidity(shape);
+                (4.0 * f32::EPSILON * (sum_abs(ray.origin) + extent), is_solid && side == Side::Outside)
             }
         };
         Probe { ray, origin_error, leaves_solid }

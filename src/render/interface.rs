@@ -194,7 +194,7 @@ impl<const P: u32> Tracer<'_, P> {
     ) {
         let mut alone = path.lane(lane, ray);
         if alone.throughput[0] > 0.0 && alone.survives(&mut sampler) {
-            radiance[lane] += self.radiance(alone, &mut sampler)[0];
+            radiance[lane] += self.radiance(&mut alone, &mut sampler)[0];
         }
     }
 

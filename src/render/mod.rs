@@ -122,8 +122,8 @@ impl<'a> Kernel<'a> {
         let offset = sampler.set(self.tables.sets()) * N as u32;
         let [x, y] = [pixel[0] as f32 + 0.5 + dx, pixel[1] as f32 + 0.5 + dy];
         let ray = self.scene.camera.ray(x, y, || sampler.uniform_2d());
-        let path = Path::<N>::new(ray, offset, self.around_camera);
-        Traced { ray, offset, radiance: self.radiance(path, &mut sampler) }
+        let mut path = Path::<N>::new(ray, offset, self.around_camera);
+        Traced { ray, offset, radiance: self.radiance(&mut path, &mut sampler) }
     }
 
     /// XYZ of a sample in cd/m².

@@ -84,18 +84,19 @@ pub enum Outcome {
 }
 
 impl<const P: u32> Tracer<'_, P> {
-    /// Spectral radiance (W m⁻² sr⁻¹ nm⁻¹) that arrives along a path's ray, a lane each.
-    pub fn radiance<const N: usize>(&self, mut path: Path<N>, sampler: &mut Sampler) -> Lanes<N> {
+    /// Spectral radiance (W m⁻² sr⁻¹ nm⁻¹) that arrives along a path's ray, a lane each. The path goes where it ends: a
+    /// copy of it took 2 % of the instructions of a sample of a diffuse mesh.
+    pub fn radiance<const N: usize>(&self, path: &mut Path<N>, sampler: &mut Sampler) -> Lanes<N> {
         let (mut radiance, mut traced) = (Lanes::ZERO, 0);
         loop {
             traced += 1;
             let mut also = Vec::new();
-            let Some(hit) = self.next(&path, &mut also) else {
-                radiance += self.environment(&path);
+            let Some(hit) = self.next(path, &mut also) else {
+                radiance += self.environment(path);
                 break;
             };
-            path.throughput *= self.transmittance(self.medium(&path), hit.t, path.offset);
-            radiance += self.emission(&path, &hit);
+            path.throughput *= self.transmittance(self.medium(path), hit.t, path.offset);
+            radiance += self.emission(path, &hit);
             // The last interaction is followed by a ray that only looks for light, the other half of its estimate.
             if path.depth >= self.max_depth {
                 break;
@@ -105,17 +106,17 @@ impl<const P: u32> Tracer<'_, P> {
                 Surface::Black => Outcome::Ended,
                 Surface::Diffuse { reflectance } => {
                     let bsdf = Bsdf::Diffuse { reflectance: self.reflectance(*reflectance, &hit, path.offset) };
-                    self.scatter(&bsdf, &mut path, &hit, sampler, &mut radiance)
+                    self.scatter(&bsdf, path, &hit, sampler, &mut radiance)
                 }
                 Surface::Conductor { n, k, alpha, model } => {
                     let surface = self.scene.object(hit.shape).surface;
-                    let fresnel = self.metal(*model, surface, [*n, *k], self.medium(&path), path.offset);
+                    let fresnel = self.metal(*model, surface, [*n, *k], self.medium(path), path.offset);
                     let bsdf = Bsdf::Conductor { fresnel, alpha: self.alpha_of_metal(*alpha, &hit) };
-                    self.scatter(&bsdf, &mut path, &hit, sampler, &mut radiance)
+                    self.scatter(&bsdf, path, &hit, sampler, &mut radiance)
                 }
                 Surface::Dielectric(interface) if Self::runs(Physics::CLEAR_MEDIA) => {
                     let interface = self.boundary_at(interface, &hit);
-                    self.interface(&interface, &mut path, (&hit, &also), sampler, &mut radiance)
+                    self.interface(&interface, path, (&hit, &also), sampler, &mut radiance)
                 }
                 Surface::Dielectric(_) => Outcome::Ended,
             };

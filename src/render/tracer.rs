@@ -57,7 +57,7 @@ macro_rules! kernels {
         impl Kernel<'_> {
             /// Spectral radiance (W m⁻² sr⁻¹ nm⁻¹) that arrives along a path's ray, a lane each.
             #[inline]
-            pub fn radiance<const N: usize>(&self, path: Path<N>, sampler: &mut Sampler) -> Lanes<N> {
+            pub fn radiance<const N: usize>(&self, path: &mut Path<N>, sampler: &mut Sampler) -> Lanes<N> {
                 $(if self.physics == $physics {
                     return Tracer::<{ $physics.0 }>(self).radiance(path, sampler);
                 })+

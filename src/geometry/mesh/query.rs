@@ -106,10 +106,13 @@ impl Mesh {
         hidden
     }
 
-    /// With a bound on the error of its distance.
+    /// With a bound on the error of its distance where it is met from inside.
     #[inline]
     pub(super) fn bounded(&self, query: &Query, first: First) -> Option<Crossing> {
-        first.crossing().map(|met| Crossing { slack: self.slack(query, &met), ..met })
+        first.crossing().map(|met| match met.side {
+            Side::Outside => met,
+            Side::Inside => Crossing { slack: self.slack(query, &met), ..met },
+        })
     }
 
     /// Bound on the error of the distance: how far along the ray that of the origin counts, and rounding.

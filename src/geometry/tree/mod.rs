@@ -155,10 +155,11 @@ impl Tree {
         let mut stack = Stack::new();
         let mut next = child(stack.push(&met.nears, &top.children, met.hits));
         loop {
-            if next == NOTHING {
+            if next & ITEM != 0 {
                 // A ray that is no number meets all boxes, empty ones too.
-            } else if next & ITEM != 0 {
-                t_max = visit(&prepared, next & !ITEM, t_max);
+                if next != NOTHING {
+                    t_max = visit(&prepared, next & !ITEM, t_max);
+                }
                 if t_max < 0.0 {
                     return;
                 }
