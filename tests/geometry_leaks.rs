@@ -205,6 +205,31 @@ fn lanes_that_are_not_numbers_do_not_disturb_others() {
     assert_eq!((exits.t[4], exits.facet[4]), (alone.t[0], alone.facet[0]));
 }
 
+/// What is no number says nothing about how far apart the others are, wherever it stands among them.
+#[test]
+fn rays_beside_one_that_is_no_number_keep_their_exits() {
+    let solid = Brilliant::default().solid().unwrap();
+    let origin = solid.center() + Vec3::new(0.1, 0.05, 0.0) * solid.radius();
+    for turn in 0..64 {
+        let angle = turn as f32 * 0.1;
+        let middle = Vec3::new(libm::cosf(angle), libm::sinf(angle), 0.3).normalize();
+        for (aside, nan) in (0..8).flat_map(|aside| (0..8).map(move |nan| (aside, nan))) {
+            let mut directions = Points::<8>::splat(middle);
+            directions.set(aside, (middle + Vec3::new(0.1, -0.1, 0.15)).normalize());
+            directions.set(nan, Vec3::NAN);
+            let exits = solid.exit_lanes(&Points::splat(origin), &directions);
+            for lane in (0..8).filter(|&lane| lane != nan) {
+                let alone = solid.exit_lanes(&Points::<1>::splat(origin), &Points::splat(directions.get(lane)));
+                assert_eq!(
+                    (exits.t[lane], exits.facet[lane]),
+                    (alone.t[0], alone.facet[0]),
+                    "{turn}: {aside} {nan} {lane}"
+                );
+            }
+        }
+    }
+}
+
 /// Rays at each place.
 fn ray_count() -> usize {
     let told = std::env::var("SPECTREL_LEAK_RAYS").ok();

@@ -213,8 +213,8 @@ impl World {
         if let Some(Shape::Mesh(mesh)) = self.shape(far.shape) {
             let side = far.side.opposite();
             let &Hit { facet, place, .. } = far;
-            let leaving = Leaving { origin: far.point, direction: ray.direction, facet, side, place };
-            let again = mesh.again(&leaving, within(mesh.extent()) - far.t);
+            let from_there = Ray::free(far.point, ray.direction);
+            let again = mesh.again(&Leaving { ray: &from_there, facet, side, place }, within(mesh.extent()) - far.t);
             candidate(far.shape.0, again.map(|crossing| Crossing { t: far.t + crossing.t, ..crossing }));
         }
         best.map(|nearest| self.surface(ray, &nearest.met()))
@@ -296,7 +296,7 @@ impl World {
 
 /// The shapes that a ray leaves, and how.
 #[inline]
-fn all_left(ray: &Ray, also: &[Departure]) -> impl Iterator<Item = (ShapeId, Leaving)> {
+fn all_left<'a>(ray: &'a Ray, also: &[Departure]) -> impl Iterator<Item = (ShapeId, Leaving<'a>)> {
     leaving(ray, ray.departs).into_iter().chain(also.iter().filter_map(|&departs| leaving(ray, departs)))
 }
 
@@ -306,12 +306,10 @@ fn is_among(departures: &[Departure], shape: u32) -> bool {
 }
 
 #[inline]
-fn leaving(ray: &Ray, departs: Departure) -> Option<(ShapeId, Leaving)> {
+fn leaving(ray: &Ray, departs: Departure) -> Option<(ShapeId, Leaving<'_>)> {
     match departs {
         Departure::Free => None,
-        Departure::Surface { shape, facet, side, place } => {
-            Some((shape, Leaving { origin: ray.origin, direction: ray.direction, facet, side, place }))
-        }
+        Departure::Surface { shape, facet, side, place } => Some((shape, Leaving { ray, facet, side, place })),
     }
 }
 

@@ -28,7 +28,7 @@ pub(super) struct Bundle {
 }
 
 impl Bundle {
-    /// Rays by origins from the centre of a solid; none if they are far apart or infinite. Those that are no numbers have no exit.
+    /// Rays by origins from the centre of a solid; none if they are far apart, infinite or no numbers.
     #[inline]
     pub fn new<const N: usize>(o: &Points<N>, d: &Points<N>, radius: f32) -> Option<Self> {
         let (origin, direction) = (o.get(N / 2), d.get(N / 2));
@@ -44,65 +44,91 @@ impl Bundle {
         bundle.beside.is_finite().then_some(bundle)
     }
 
-    /// n·d and offset − n·o of the middle ray.
+    /// The least and the largest nearness that the planes of a block can have for a ray. Where a plane turns away from all rays the
+    /// largest is below zero.
     #[inline(always)]
-    fn meet(&self, block: &Block, k: usize) -> (f32, f32) {
+    fn nearness(&self, block: &Block) -> [Nearness; 2] {
         let (o, d) = (self.origin, self.direction);
-        let rate = block.x[k] * d.x + block.y[k] * d.y + block.z[k] * d.z;
-        (rate, block.offset[k] - (block.x[k] * o.x + block.y[k] * o.y + block.z[k] * o.z))
+        let (mut least, mut most) = ([0.0f32; BLOCK], [0.0f32; BLOCK]);
+        for k in 0..BLOCK {
+            let rate = block.x[k] * d.x + block.y[k] * d.y + block.z[k] * d.z;
+            let room = block.offset[k] - (block.x[k] * o.x + block.y[k] * o.y + block.z[k] * o.z);
+            let (far, near) = (room + self.beside, room - self.beside);
+            least[k] = (rate - self.apart) / if far > TOUCHING { far } else { TOUCHING };
+            most[k] = (rate + self.apart) / if near > TOUCHING { near } else { TOUCHING };
+        }
+        [least, most]
     }
 }
 
-/// The largest distance of points from one; those that are no numbers do not count, unless all are none.
+/// The largest distance of points from one; infinite if one is no number.
 #[inline]
 fn farthest<const N: usize>(points: &Points<N>, from: Vec3) -> f32 {
     let mut squared = [0.0f32; N];
     for (lane, squared) in squared.iter_mut().enumerate() {
         let (x, y, z) = (points.x[lane] - from.x, points.y[lane] - from.y, points.z[lane] - from.z);
-        *squared = x * x + y * y + z * z;
+        let sum = x * x + y * y + z * z;
+        *squared = if sum < f32::INFINITY { sum } else { f32::INFINITY };
     }
-    squared.iter().fold(0.0, |most: f32, &one| if one <= most { most } else { one }).sqrt()
+    largest_of(squared).sqrt()
 }
+
+/// By halves: a fold from the first to the last is one chain of single numbers.
+#[inline]
+fn largest_of<const N: usize>(mut numbers: [f32; N]) -> f32 {
+    let mut left = N;
+    while left > 1 {
+        let half = left.div_ceil(2);
+        for k in 0..left - half {
+            let (one, other) = (numbers[k], numbers[k + half]);
+            numbers[k] = if one > other { one } else { other };
+        }
+        left = half;
+    }
+    numbers[0]
+}
+
+/// Blocks whose nearness is kept from the first look at them to the second, 128 planes: cuts have fewer.
+const KEPT: usize = 16;
+
+/// How near planes can be: rate / room.
+type Nearness = [f32; BLOCK];
 
 impl Convex {
     /// Calls `meet` with the planes that can be exits, in their order.
     #[inline]
     pub(super) fn possible_exits(&self, bundle: &Bundle, mut meet: impl FnMut(u32)) {
-        let (least, blocks) = self.least_nearness(bundle);
+        let mut kept = [[0.0f32; BLOCK]; KEPT];
+        let (least, blocks) = self.least_nearness(bundle, &mut kept);
         for (number, block) in self.blocks[..blocks].iter().enumerate() {
-            // Below 0 where the plane is nobody's exit.
-            let mut spare = [0.0f32; BLOCK];
-            for (k, spare) in spare.iter_mut().enumerate() {
-                let (rate, room) = bundle.meet(block, k);
-                let room = room - bundle.beside;
-                *spare = rate + bundle.apart - least * if room > TOUCHING { room } else { TOUCHING };
-            }
-            if spare.iter().fold(false, |any, &spare| any | (spare >= 0.0)) {
-                (0..BLOCK).filter(|&k| spare[k] >= 0.0).for_each(|k| meet((number * BLOCK + k) as u32));
+            let most = kept.get(number).copied().unwrap_or_else(|| bundle.nearness(block)[1]);
+            if most.iter().fold(false, |any, &most| any | (most >= least)) {
+                (0..BLOCK).filter(|&k| most[k] >= least).for_each(|k| meet((number * BLOCK + k) as u32));
             }
         }
     }
 
     /// A nearness that each ray's exit has at least, and how many blocks of planes come into question.
     #[inline]
-    fn least_nearness(&self, bundle: &Bundle) -> (f32, usize) {
-        let mut least = [0.0f32; BLOCK];
+    fn least_nearness(&self, bundle: &Bundle, kept: &mut [Nearness; KEPT]) -> (f32, usize) {
+        let mut largest_least = [0.0f32; BLOCK];
         for (number, block) in self.blocks.iter().enumerate() {
             let planes = (number * BLOCK) as u32;
             if planes >= FIRST_CHECK && planes.is_multiple_of(CHECK_EVERY) {
-                let least = largest(&least);
+                let least = largest(&largest_least);
                 if bundle.is_within(1.0 / least, block.offset[0]) {
                     return (least, number);
                 }
             }
-            for (k, least) in least.iter_mut().enumerate() {
-                let (rate, room) = bundle.meet(block, k);
-                let room = room + bundle.beside;
-                let near = (rate - bundle.apart) / if room > TOUCHING { room } else { TOUCHING };
-                *least = if near > *least { near } else { *least };
+            let [least, most] = bundle.nearness(block);
+            for (largest, least) in largest_least.iter_mut().zip(least) {
+                *largest = if least > *largest { least } else { *largest };
+            }
+            if let Some(kept) = kept.get_mut(number) {
+                *kept = most;
             }
         }
-        (largest(&least), self.blocks.len())
+        (largest(&largest_least), self.blocks.len())
     }
 }
 
@@ -118,5 +144,5 @@ impl Bundle {
 /// Less by what rounding may have added.
 #[inline]
 fn largest(numbers: &[f32; BLOCK]) -> f32 {
-    numbers.iter().fold(0.0, |most: f32, &one| if one > most { one } else { most }) * (1.0 - 1e-6)
+    largest_of(*numbers) * (1.0 - 1e-6)
 }

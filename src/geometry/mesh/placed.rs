@@ -156,24 +156,24 @@ impl Placed {
 
     /// A ray that leaves a triangle of the mesh, in its space.
     #[inline]
-    fn leaving(&self, ray: &Leaving, but: Option<u32>) -> Query {
-        let &Leaving { origin, direction, facet, side, place } = ray;
+    fn leaving(&self, leaving: &Leaving, but: Option<u32>) -> Query {
+        let &Leaving { ray, facet, side, place } = leaving;
         let corners = self.mesh.corners_of(facet, place);
-        let query = Query::leaving(self.to_mesh(origin), self.direction(direction), corners, side);
+        let query = Query::leaving(self.to_mesh(ray.origin), self.direction(ray.direction), corners, side);
         Query { skip: [facet, but.unwrap_or(NONE)], ..query }
     }
 
     /// What a ray meets of the mesh that it leaves.
     #[inline]
-    pub(in crate::geometry) fn again(&self, ray: &Leaving, limit: f32) -> Option<Crossing> {
-        let query = self.leaving(ray, None);
+    pub(in crate::geometry) fn again(&self, leaving: &Leaving, limit: f32) -> Option<Crossing> {
+        let query = self.leaving(leaving, None);
         self.mesh.bounded(&query, self.mesh.closest(&query, limit))
     }
 
     /// Whether the mesh that a ray leaves, but for one triangle, surely is in its own way.
     #[inline]
-    pub(in crate::geometry) fn hides_again(&self, ray: &Leaving, limit: f32, but: Option<u32>) -> bool {
-        self.mesh.hides(&self.leaving(ray, but), limit)
+    pub(in crate::geometry) fn hides_again(&self, leaving: &Leaving, limit: f32, but: Option<u32>) -> bool {
+        self.mesh.hides(&self.leaving(leaving, but), limit)
     }
 
     /// Strictly inside, told by what a line from the point meets first.
