@@ -14,10 +14,10 @@ use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::leaf_collapser::collapse;
 use obvhs::bvh2::node::Bvh2Node;
-use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::ploc::{PlocBuilder, SortPrecision};
 use rayon::prelude::*;
 
+use super::reinsert::reinsert;
 use super::{ITEM, Node, Tree, WIDTH};
 use crate::geometry::Bounds;
 
@@ -80,11 +80,10 @@ fn binary(count: usize, size: u32, bounds: &(impl Fn(usize) -> Bounds + Sync)) -
     tree.primitive_indices = (0..count as u32).collect();
     builder.build_ploc_from_leaves::<MATES, false>(&mut tree, unit, SortPrecision::U64, 3);
     drop(builder);
-    let mut optimizer = ReinsertionOptimizer::default();
-    optimizer.run(&mut tree, reinsertions, None);
+    reinsert(&mut tree, reinsertions);
     // A block costs the same however full it is: the fewer the better, and no slower than obvhs's own 3.
     collapse(&mut tree, size, 10.0);
-    optimizer.run(&mut tree, 2.0 * reinsertions, None);
+    reinsert(&mut tree, 2.0 * reinsertions);
     tree
 }
 

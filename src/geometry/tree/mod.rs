@@ -23,6 +23,7 @@
 //! four for one of eight are 2 to 13 % slower.
 
 mod build;
+mod reinsert;
 
 use glam::Vec3;
 

@@ -1,0 +1,181 @@
+//! Moves nodes of a binary tree to better places.
+//!
+//! A node is taken out and put beside another one wherever that makes the sum of all boxes' areas smaller (D. Meister, J. Bittner,
+//! "Parallel Reinsertion for Bounding Volume Hierarchy Optimization", Computer Graphics Forum 37(2), 2018). In a round many nodes look for a
+//! place at once; then the best moves are done first, and those that meddle with what has just changed are left for a later
+//! round. Later rounds are for the largest boxes alone, which come together from afar and get into each other's way.
+//!
+//! obvhs does the same. Ours takes 0.42 s of one core where that took 1.35, on a mesh of 1.3 M triangles, and leaves the same sum to
+//! 0.2 %: boxes are looked at before they are put by, the better first (0.82 s); a place is sought around [`ANCESTORS`] only (0.61 s);
+//! who has found none rests for [`REST`] rounds. Around 8 ancestors the sum is 0.8 % larger; a rest of 5 rounds saves
+//! another 2 % of the time and costs 0.7 %.
+
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::node::Bvh2Node;
+use obvhs::bvh2::reinsertion::reinsert_node;
+use rayon::prelude::*;
+
+/// In round k, counted from zero, 1/(2k + 1) of the share look for a place.
+const ROUNDS: u8 = 16;
+
+/// So many ancestors up, what hangs beside them is searched.
+const ANCESTORS: usize = 12;
+
+/// Rounds for which a node does not look again unless something beside it has moved.
+const REST: u8 = 2;
+
+/// Nodes that one task looks for at least.
+const TASK: usize = 256;
+
+/// From beside one node to beside another.
+#[derive(Clone, Copy)]
+struct Move {
+    from: u32,
+    to: u32,
+    /// By how much the sum of half the boxes' surfaces shrinks.
+    gain: f32,
+}
+
+/// An inner node below which there may be a better place, and what is gained once the way down to it is paid for.
+type Promise = (f32, u32);
+
+/// Lets this share of the nodes look for a better place, and smaller shares in further rounds.
+pub(super) fn reinsert(tree: &mut Bvh2, share: f32) {
+    if tree.nodes.first().is_none_or(Bvh2Node::is_leaf) || share <= 0.0 {
+        return;
+    }
+    tree.init_parents_if_uninit();
+    tree.children_are_ordered_after_parents = false;
+    let mut touched = vec![false; tree.nodes.len()];
+    let mut rests_until = vec![0; tree.nodes.len()];
+    for round in 0..ROUNDS {
+        let count = (tree.nodes.len() as f32 * share / f32::from(2 * round + 1)) as usize;
+        let mut who = largest(tree, count.clamp(1, tree.nodes.len() - 1));
+        who.retain(|&node| rests_until[node as usize] <= round);
+        who.iter().for_each(|&node| rests_until[node as usize] = round + 1 + REST);
+        touched.fill(false);
+        for found in &moves(tree, &who) {
+            let involved = involved(tree, found);
+            if involved.iter().any(|&node| touched[node]) {
+                continue;
+            }
+            for node in involved {
+                touched[node] = true;
+                rests_until[node] = 0;
+            }
+            reinsert_node(tree, found.from as usize, found.to as usize);
+        }
+    }
+}
+
+/// Nodes with large boxes, of the first ones in memory, where those are.
+fn largest(tree: &Bvh2, count: usize) -> Vec<u32> {
+    let known = tree.nodes.iter().zip(0..).skip(1).take(2 * count);
+    let mut nodes: Vec<(u32, u32)> = known.map(|(node, at)| (node.aabb().half_area().to_bits(), at)).collect();
+    if count < nodes.len() {
+        nodes.select_nth_unstable_by(count, |a, b| b.cmp(a));
+        nodes.truncate(count);
+    }
+    nodes.into_iter().map(|(_, at)| at).collect()
+}
+
+/// What is gained by moving nodes, the best first.
+fn moves(tree: &Bvh2, who: &[u32]) -> Vec<Move> {
+    let search = |work: &mut Vec<Promise>, &node: &u32| Search::new(tree, node as usize).best(work);
+    let mut moves: Vec<Move> = who.par_iter().with_min_len(TASK).map_init(Vec::new, search).flatten_iter().collect();
+    moves.par_sort_unstable_by(|a, b| b.gain.total_cmp(&a.gain).then(a.from.cmp(&b.from)));
+    moves
+}
+
+/// The nodes whose children or whose parent a move changes.
+fn involved(tree: &Bvh2, &Move { from, to, .. }: &Move) -> [usize; 5] {
+    let (from, to) = (from as usize, to as usize);
+    let parent = |node: usize| tree.parents[node] as usize;
+    [to, from, Bvh2Node::get_sibling_id(from), parent(to), parent(from)]
+}
+
+/// The search for a better place of one node.
+struct Search<'a> {
+    tree: &'a Bvh2,
+    node: usize,
+    own: Aabb,
+    own_area: f32,
+    best: Move,
+}
+
+impl<'a> Search<'a> {
+    fn new(tree: &'a Bvh2, node: usize) -> Self {
+        let own = *tree.nodes[node].aabb();
+        Self { tree, node, own, own_area: own.half_area(), best: Move { from: node as u32, to: 0, gain: 0.0 } }
+    }
+
+    /// The best move, if there is one that gains anything.
+    fn best(mut self, work: &mut Vec<Promise>) -> Option<Move> {
+        let nodes = &self.tree.nodes;
+        let parent = self.tree.parents[self.node] as usize;
+        let mut sibling = Bvh2Node::get_sibling_id(self.node);
+        // Without the node its parent is not needed, and those above are as large as what else is below them.
+        let mut gain = nodes[parent].aabb().half_area();
+        let mut without = *nodes[sibling].aabb();
+        let mut ancestor = parent;
+        for _ in 0..ANCESTORS {
+            self.below(sibling, gain, work);
+            if ancestor != parent {
+                without = without.union(nodes[sibling].aabb());
+                gain += nodes[ancestor].aabb().half_area() - without.half_area();
+            }
+            if ancestor == 0 {
+                break;
+            }
+            sibling = Bvh2Node::get_sibling_id(ancestor);
+            ancestor = self.tree.parents[ancestor] as usize;
+        }
+        (self.best.gain > 0.0).then_some(self.best)
+    }
+
+    /// Looks for a place beside a node and all below it.
+    #[inline]
+    fn below(&mut self, top: usize, gain: f32, work: &mut Vec<Promise>) {
+        if !self.promises(gain) {
+            return;
+        }
+        let left = self.beside(top, gain);
+        self.put_by(top, left, work);
+        while let Some((gain, first)) = work.pop() {
+            if !self.promises(gain) {
+                continue;
+            }
+            let pair = [first as usize, first as usize + 1];
+            let [a, b] = pair.map(|node| self.beside(node, gain));
+            let (near, far) = if a >= b { ((pair[0], a), (pair[1], b)) } else { ((pair[1], b), (pair[0], a)) };
+            self.put_by(far.0, far.1, work);
+            self.put_by(near.0, near.1, work);
+        }
+    }
+
+    /// Whether there may be a better place where this much is left to pay for a box around the node and another one.
+    #[inline]
+    fn promises(&self, gain: f32) -> bool {
+        gain - self.own_area > self.best.gain
+    }
+
+    #[inline]
+    fn put_by(&self, node: usize, left: f32, work: &mut Vec<Promise>) {
+        if self.promises(left) {
+            work.push((left, self.tree.nodes[node].first_index));
+        }
+    }
+
+    /// Takes the place beside a node if it is the best so far. Returns what is left of the gain below it; nothing for a leaf.
+    #[inline]
+    fn beside(&mut self, at: usize, gain: f32) -> f32 {
+        let node = &self.tree.nodes[at];
+        let here = gain - node.aabb().union(&self.own).half_area();
+        // Beside its sibling is where it is.
+        if here > self.best.gain && at != Bvh2Node::get_sibling_id(self.node) {
+            self.best = Move { to: at as u32, gain: here, ..self.best };
+        }
+        if node.is_leaf() { f32::NEG_INFINITY } else { here + node.aabb().half_area() }
+    }
+}
