@@ -111,41 +111,22 @@ impl World {
         let asked = |shape: u32| shape != departed && !is_among(also, shape);
         match &self.tree {
             None => {
-                for shape in (0..self.shapes.len() as u32).filter(|&shape| asked(shape)) {
-                    (best, limit) = self.nearer(&probe, shape, best, limit);
+                for (shape, own) in (0..).zip(&self.shapes).filter(|&(shape, _)| asked(shape)) {
+                    (best, limit) = nearer(&probe, (shape, own), best, limit);
                 }
             }
             Some(tree) => {
                 let boxes = BoxRay::new(ray.origin, ray.direction, probe.origin_error);
-                tree.visit(
-                    &boxes,
-                    limit,
-                    || (),
-                    |(), shape, limit| {
-                        let (nearer, limit) =
-                            if asked(shape) { self.nearer(&probe, shape, best, limit) } else { (best, limit) };
-                        best = nearer;
-                        limit
-                    },
-                )
+                tree.visit(&boxes, limit, |shape, limit| {
+                    let own = &self.shapes[shape as usize];
+                    let (found, limit) =
+                        if asked(shape) { nearer(&probe, (shape, own), best, limit) } else { (best, limit) };
+                    best = found;
+                    limit
+                })
             }
         }
         best.map(Nearest::met)
-    }
-
-    /// What is nearest, and how far away at most, once one more shape has been asked.
-    ///
-    /// By values and in its caller, as they stay in registers then: a structure that is written field by field and read whole is not
-    /// forwarded, and waiting for it took a tenth of a camera's ray with its surface.
-    #[inline(always)]
-    fn nearer(&self, probe: &Probe, shape: u32, best: Option<Nearest>, limit: f32) -> (Option<Nearest>, f32) {
-        let Some(crossing) = self.shapes[shape as usize].meet(probe, limit) else { return (best, limit) };
-        // `limit` is the best distance or, at first, the farthest allowed: a tie goes to the lower number.
-        let tie = best.is_some_and(|b| crossing.t == b.crossing.t && b.shape < shape);
-        if tie || !(crossing.t <= limit) {
-            return (best, limit);
-        }
-        (Some(Nearest { crossing, shape }), crossing.t)
     }
 
     /// Whether anything lies between the ray's origin and the point `t_max` away.
@@ -255,10 +236,7 @@ impl World {
     #[inline]
     fn visit(&self, ray: &Ray, probe: &Probe, limit: f32, mut each: impl FnMut(u32, f32) -> f32) {
         match &self.tree {
-            Some(tree) => {
-                let boxes = BoxRay::new(ray.origin, ray.direction, probe.origin_error);
-                tree.visit(&boxes, limit, || (), |(), shape, limit| each(shape, limit));
-            }
+            Some(tree) => tree.visit(&BoxRay::new(ray.origin, ray.direction, probe.origin_error), limit, each),
             None => {
                 let mut limit = limit;
                 for shape in 0..self.shapes.len() as u32 {
@@ -292,6 +270,21 @@ impl World {
         let Surface { point, normal, shading } = self.shapes[shape.0 as usize].surface(near, met);
         Hit { t, shape, side, facet, place, point, normal, shading }
     }
+}
+
+/// What is nearest, and how far away at most, once one more shape has been asked.
+///
+/// By values and in its caller, as they stay in registers then: a structure that is written field by field and read whole is not
+/// forwarded, and waiting for it took a tenth of a camera's ray with its surface.
+#[inline(always)]
+fn nearer(probe: &Probe, (shape, own): (u32, &Shape), best: Option<Nearest>, limit: f32) -> (Option<Nearest>, f32) {
+    let Some(crossing) = own.meet(probe, limit) else { return (best, limit) };
+    // `limit` is the best distance or, at first, the farthest allowed: a tie goes to the lower number.
+    let tie = best.is_some_and(|b| crossing.t == b.crossing.t && b.shape < shape);
+    if tie || !(crossing.t <= limit) {
+        return (best, limit);
+    }
+    (Some(Nearest { crossing, shape }), crossing.t)
 }
 
 /// The shapes that a ray leaves, and how.

@@ -2,6 +2,7 @@
 //! nothing go. Everything that went is counted in a note.
 
 use glam::{DAffine3, DVec3, Vec3};
+use rayon::prelude::*;
 
 use super::error::Fault;
 use super::{MeshFile, Part, Placement, Triangles};
@@ -38,6 +39,9 @@ impl Gathered {
     fn drop_bad_triangles(&mut self, part: &mut Part) {
         let mut counts = [0; 3];
         let Triangles { positions, indices, .. } = &mut part.triangles;
+        if indices.par_iter().all(|corners| flaw(corners, positions).is_none()) {
+            return;
+        }
         indices.retain(|corners| match flaw(corners, positions) {
             None => true,
             Some(flaw) => {

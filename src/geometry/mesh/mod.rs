@@ -190,35 +190,38 @@ impl Spot {
     /// The point of a triangle nearest to one that lies on it but for rounding: put onto its plane, then between its edges.
     #[inline]
     fn nearest(near: DVec3, corners: [DVec3; 3]) -> Self {
-        Self::within(near, corners, |_, _, _| [0.0; 3])
+        Self::within(near, corners, |_, _| [0.0; 3])
     }
 
-    /// The same, at least `margin` away from each edge where there is room.
-    fn away_from_edges(near: DVec3, corners: [DVec3; 3], margin: f64) -> Self {
-        // A weight is a distance from an edge over the height above it, and the height is twice the area over the edge.
-        Self::within(near, corners, |weights, edges, area2| {
-            // Without roots for most, which are farther from each edge than twice that.
-            let far = |(weight, edge): (&f64, &DVec3)| {
-                *weight > 0.0 && weight * weight * area2 > 4.0 * margin * margin * edge.length_squared()
-            };
-            if weights.iter().zip(&edges).all(far) {
-                return [0.0; 3];
-            }
-            edges.map(|edge| margin * edge.length() / area2.sqrt())
-        })
-    }
-
-    /// `least` gives the smallest weights allowed, from those of the point, the edges opposite of the corners and four times the area,
-    /// squared.
+    /// The same, at least `margin` away from each edge where there is room. `size` bounds the edges' components at one corner.
     #[inline]
-    fn within(near: DVec3, [a, b, c]: [DVec3; 3], least: impl FnOnce(&[f64; 3], [DVec3; 3], f64) -> [f64; 3]) -> Self {
+    fn away_from_edges(near: DVec3, corners: [DVec3; 3], margin: f64, size: f64) -> Self {
+        let spot = Self::nearest(near, corners);
+        // Without roots for most: a weight times twice the area is a distance from an edge times its length, squared at most 12 size².
+        let least = spot.weights[0].min(spot.weights[1]).min(spot.weights[2]);
+        let far = 2.0 * margin * size;
+        if least * least * spot.normal.length_squared() > 12.0 * far * far {
+            return spot;
+        }
+        Self::beside_edges(near, corners, margin)
+    }
+
+    #[cold]
+    fn beside_edges(near: DVec3, corners: [DVec3; 3], margin: f64) -> Self {
+        // A weight is a distance from an edge over the height above it, and the height is twice the area over the edge.
+        Self::within(near, corners, |edges, area2| edges.map(|edge| margin * edge.length() / area2.sqrt()))
+    }
+
+    /// `least` gives the smallest weights allowed, from the edges opposite of the corners and four times the area, squared.
+    #[inline]
+    fn within(near: DVec3, [a, b, c]: [DVec3; 3], least: impl FnOnce([DVec3; 3], f64) -> [f64; 3]) -> Self {
         let (ab, ac, ap) = (b - a, c - a, near - a);
         let normal = ab.cross(ac);
         let area2 = normal.length_squared();
         let v = ap.cross(ac).dot(normal) / area2;
         let w = ab.cross(ap).dot(normal) / area2;
         let mut weights = [1.0 - v - w, v, w];
-        let least = least(&weights, [c - b, ac, ab], area2);
+        let least = least([c - b, ac, ab], area2);
         let room = 1.0 - least.iter().sum::<f64>();
         if !(room > 0.0) || weights.iter().any(|x| !x.is_finite()) {
             weights = [1.0 / 3.0; 3];
@@ -243,10 +246,14 @@ fn examine(triangles: &Triangles) -> Result<(), GeometryError> {
         return Err(GeometryError::TooManyTriangles { count, max: MAX });
     }
     let count = positions.len();
-    if let Some(&index) = indices.iter().flatten().find(|&&index| index as usize >= count) {
+    let stray = |triangle: &[u32; 3]| triangle.iter().copied().find(|&index| index as usize >= count);
+    if let Some(index) = indices.par_iter().find_map_first(stray) {
         return Err(GeometryError::NoSuchCorner { index, count });
     }
-    positions.iter().try_for_each(|&position| check::point("a corner of the mesh", position))?;
+    let wrong = |&position: &Vec3| check::point("a corner of the mesh", position).err();
+    if let Some(error) = positions.par_iter().find_map_first(wrong) {
+        return Err(error);
+    }
     let has_area = |triangle: &[u32; 3]| {
         let [a, b, c] = triangle.map(|index| positions[index as usize].as_dvec3());
         (b - a).cross(c - a) != DVec3::ZERO

@@ -149,7 +149,7 @@ impl Placed {
     }
 
     /// Whether the mesh, but for one triangle, surely is in the way.
-    #[inline]
+    #[inline(never)]
     pub(in crate::geometry) fn hides(&self, probe: &Probe, limit: f32, but: Option<u32>) -> bool {
         self.mesh.hides(&self.query(probe, but), limit)
     }
@@ -159,8 +159,8 @@ impl Placed {
     fn leaving(&self, leaving: &Leaving, but: Option<u32>) -> Query {
         let &Leaving { ray, facet, side, place } = leaving;
         let corners = self.mesh.corners_of(facet, place);
-        let query = Query::leaving(self.to_mesh(ray.origin), self.direction(ray.direction), corners, side);
-        Query { skip: [facet, but.unwrap_or(NONE)], ..query }
+        let skip = [facet, but.unwrap_or(NONE)];
+        Query::leaving(self.to_mesh(ray.origin), self.direction(ray.direction), corners, side, skip)
     }
 
     /// What a ray meets of the mesh that it leaves.

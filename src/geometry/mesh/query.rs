@@ -134,7 +134,7 @@ impl Mesh {
             // In double precision, where the products are as good as exact.
             (line, f64::from(query.direction.length()), NEAR * f64::from(query.error))
         };
-        self.tree.visit(&boxes, limit, prepare, |&(ref line, length, near), leaf, mut limit| {
+        self.tree.visit_with(&boxes, limit, prepare, |&(ref line, length, near), leaf, mut limit| {
             let block = &self.blocks[leaf as usize];
             block.cross(line, |crossed| {
                 let Crossed { t, side, lane } = crossed;
@@ -154,12 +154,13 @@ impl Mesh {
 }
 
 impl Query {
-    /// A ray that leaves a triangle from `near`, a point on it but for rounding, into one side of it.
-    pub fn leaving(near: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3], side: Side) -> Self {
+    /// A ray that leaves a triangle, given by its corners, from `near`, a point on it but for rounding, into one side of it.
+    #[inline]
+    pub fn leaving(near: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3], side: Side, skip: [u32; 2]) -> Self {
         let size = (b - a).abs().max((c - a).abs()).max_element();
         // At least the change that rounding to single precision, of the origin or of a corner seen from it, makes.
         let delta = f64::from(f32::EPSILON) * (a.abs().max_element() + size);
-        let spot = Spot::away_from_edges(near, [a, b, c], 4.0 * delta);
+        let spot = Spot::away_from_edges(near, [a, b, c], 4.0 * delta, size);
         let out = spot.normal.normalize() * if side == Side::Outside { 1.0 } else { -1.0 };
         // A direction that rounding has turned into the surface goes along it.
         let direction = direction - out * direction.dot(out).min(0.0);
@@ -168,7 +169,7 @@ impl Query {
             direction: direction.as_vec3(),
             error: (4.0 * delta) as f32,
             comes: [side == Side::Outside, side == Side::Inside],
-            skip: [NONE; 2],
+            skip,
         }
     }
 

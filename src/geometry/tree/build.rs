@@ -215,8 +215,10 @@ impl Choice {
     fn of(area: f32, a: &Self, b: &Self) -> Self {
         // Of the boxes of both children together.
         let split = |room: usize| {
-            let ways = (1..room).map(|first| (a.cost[first - 1] + b.cost[room - first - 1], first as u8));
-            ways.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f32::INFINITY, 0))
+            let cost = |first: usize| a.cost[first - 1] + b.cost[room - first - 1];
+            // Some way even where no cost is a number.
+            (2..room)
+                .fold((cost(1), 1), |best, first| if cost(first) < best.0 { (cost(first), first as u8) } else { best })
         };
         let mut choice = Self::default();
         let (below, first) = split(WIDTH);

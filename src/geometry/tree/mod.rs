@@ -81,13 +81,14 @@ impl BoxRay {
     pub fn new(origin: Vec3, direction: Vec3, error: f32) -> Self {
         let (o, d) = (origin.to_array(), direction.to_array());
         let negative = d.map(|x| x.is_sign_negative() as usize);
-        let shift = |axis: usize, amount: f32| if negative[axis] == 1 { o[axis] - amount } else { o[axis] + amount };
+        // Towards where the ray goes.
+        let shift = d.map(|x| error.copysign(x));
         Self {
             negative,
             inverse: d.map(|x| 1.0 / x),
             inverse_far: d.map(|x| 1.0 / x * (1.0 + 5.0 * f32::EPSILON)),
-            near_origin: [0, 1, 2].map(|axis| shift(axis, error)),
-            far_origin: [0, 1, 2].map(|axis| shift(axis, -error)),
+            near_origin: [0, 1, 2].map(|axis| o[axis] + shift[axis]),
+            far_origin: [0, 1, 2].map(|axis| o[axis] - shift[axis]),
         }
     }
 }
@@ -137,10 +138,16 @@ impl Tree {
     }
 
     /// Shows `visit` the items whose boxes the ray meets within `t_max`, roughly near first. `visit` returns the new
-    /// `t_max`; a negative one ends it. What else it wants to know of the ray, `prepare` works out, for rays alone that meet
-    /// anything of the topmost node: most that leave a floor do not.
+    /// `t_max`; a negative one ends it.
     #[inline(always)]
-    pub fn visit<R>(
+    pub fn visit(&self, ray: &BoxRay, t_max: f32, mut visit: impl FnMut(u32, f32) -> f32) {
+        self.visit_with(ray, t_max, || (), |(), item, t_max| visit(item, t_max));
+    }
+
+    /// The same for a visitor that wants to know more of the ray. `prepare` works it out, but only where anything of the topmost node
+    /// is met: of most rays that leave a floor nothing is.
+    #[inline(always)]
+    pub fn visit_with<R>(
         &self,
         ray: &BoxRay,
         mut t_max: f32,
