@@ -179,3 +179,107 @@ impl<'a> Search<'a> {
         if node.is_leaf() { f32::NEG_INFINITY } else { here + node.aabb().half_area() }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3A;
+    use obvhs::ploc::{PlocBuilder, SortPrecision};
+
+    /// Boxes of many sizes, thrown together at random: a tree with much to gain.
+    fn tree(count: u32) -> Bvh2 {
+        let mut state = 1963u64;
+        let mut random = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 40) as f32 / (1 << 24) as f32
+        };
+        let mut leaf = |number| {
+            let corner = Vec3A::new(random(), random(), random());
+            let size = Vec3A::new(random(), random(), random()) * random().powi(4);
+            Bvh2Node::new(Aabb::new(corner, corner + size), 1, number)
+        };
+        let mut builder = PlocBuilder::new();
+        builder.current_nodes = (0..count).map(&mut leaf).collect();
+        let whole = builder.current_nodes.iter().fold(Aabb::empty(), |all, node| all.union(node.aabb()));
+        let mut tree = Bvh2::zeroed(count as usize);
+        tree.primitive_indices = (0..count).collect();
+        builder.build_ploc_from_leaves::<2, false>(&mut tree, whole, SortPrecision::U64, 3);
+        tree.init_parents_if_uninit();
+        tree
+    }
+
+    fn areas(tree: &Bvh2) -> f64 {
+        tree.nodes.iter().map(|node| f64::from(node.aabb().half_area())).sum()
+    }
+
+    /// Each leaf once, in boxes that hold it.
+    fn check(tree: &Bvh2, count: usize) {
+        let mut seen = vec![0; count];
+        let mut work = vec![0];
+        while let Some(at) = work.pop() {
+            let node = &tree.nodes[at as usize];
+            if node.is_leaf() {
+                seen[node.first_index as usize] += 1;
+                continue;
+            }
+            for child in [node.first_index, node.first_index + 1] {
+                let inner = tree.nodes[child as usize].aabb();
+                assert!(inner.min.cmpge(node.aabb().min).all() && inner.max.cmple(node.aabb().max).all());
+                assert_eq!(tree.parents[child as usize], at);
+                work.push(child);
+            }
+        }
+        assert!(seen.iter().all(|&times| times == 1));
+    }
+
+    #[test]
+    fn a_move_gains_what_it_says() {
+        let before = tree(300);
+        let mut moved = 0;
+        for node in 1..before.nodes.len() {
+            let Some(found) = Search::new(&before, node).best(&mut Vec::new()) else { continue };
+            let mut after = before.clone();
+            reinsert_node(&mut after, found.from as usize, found.to as usize);
+            check(&after, 300);
+            let gained = areas(&before) - areas(&after);
+            assert!((gained - f64::from(found.gain)).abs() < 1e-4, "node {node}: {gained}, said {}", found.gain);
+            moved += 1;
+        }
+        assert!(moved > 100, "{moved} nodes of {} have a better place", before.nodes.len());
+    }
+
+    /// No place within reach is better than the one that is found.
+    #[test]
+    fn the_best_place_is_found() {
+        let before = tree(60);
+        let parent = |node: usize| before.parents[node] as usize;
+        let above = |node: usize| std::iter::successors(Some(node), |&at| (at != 0).then(|| parent(at)));
+        for node in 1..before.nodes.len() {
+            let best = Search::new(&before, node).best(&mut Vec::new()).map_or(0.0, |found| f64::from(found.gain));
+            // The sibling of the ancestor that is this far up hangs beside the next one.
+            let reach = above(parent(node)).nth(ANCESTORS - 1).unwrap_or(0);
+            let free = |&to: &usize| {
+                let beside = to != Bvh2Node::get_sibling_id(node) && !above(node).any(|at| at == to);
+                beside && above(to).all(|at| at != node) && above(to).any(|at| at == reach)
+            };
+            for to in (1..before.nodes.len()).filter(free) {
+                let mut after = before.clone();
+                reinsert_node(&mut after, node, to);
+                let gained = areas(&before) - areas(&after);
+                assert!(gained <= best + 1e-4, "node {node} gains {gained} beside {to}, {best} at its best");
+            }
+        }
+    }
+
+    #[test]
+    fn a_tree_gets_better_and_keeps_its_leaves() {
+        for count in [2, 3, 5, 5000] {
+            let mut tree = tree(count);
+            let before = areas(&tree);
+            reinsert(&mut tree, 2.0);
+            check(&tree, count as usize);
+            assert!(areas(&tree) <= before);
+            assert!(count < 5000 || areas(&tree) < 0.9 * before, "{} of {before}", areas(&tree));
+        }
+    }
+}
