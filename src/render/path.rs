@@ -1,12 +1,12 @@
 //! The path integral: from the camera, surface by surface, with the light sampled at each.
 //!
-//! Kajiya 1986 ("The rendering equation"); next-event estimation and BSDF sampling are combined by the power heuristic
+//! Kajiya 1986 ("The rendering equation"); next-event estimation and BSDF sampling are combined by the balance heuristic
 //! (Veach & Guibas 1995). A path's N wavelengths share every random choice and, until a dispersive refraction parts them,
 //! every ray. Parted lanes go on as N paths of one wavelength that draw the same numbers: each has its own rays to the end,
 //! which measures better than going on with one of them, and is simpler.
 
 use super::media::MediaStack;
-use super::scatter::power_heuristic;
+use super::scatter::balance_heuristic;
 use super::{Tracer, rays};
 use crate::bsdf::Bsdf;
 use crate::geometry::{Hit, Ray};
@@ -134,10 +134,10 @@ impl<const P: u32> Tracer<'_, P> {
         let (lights, direction) = (&self.scene.lights, path.ray.direction);
         let (mut arriving, map_pdf) = lights.environment(&self.tables, direction, path.offset);
         if map_pdf > 0.0 {
-            arriving *= power_heuristic(path.pdf, map_pdf);
+            arriving *= balance_heuristic(path.pdf, map_pdf);
         }
         for (radiance, light_pdf) in lights.suns(direction) {
-            arriving += self.tables.get(radiance, path.offset) * power_heuristic(path.pdf, light_pdf);
+            arriving += self.tables.get(radiance, path.offset) * balance_heuristic(path.pdf, light_pdf);
         }
         path.throughput
             * arriving
@@ -157,7 +157,7 @@ impl<const P: u32> Tracer<'_, P> {
         }
         let receiver = Receiver { point: path.ray.origin, normal: path.normal };
         let light_pdf = lights.pdf(&self.scene.world, &receiver, path.ray.direction, hit);
-        emitted * power_heuristic(path.pdf, light_pdf)
+        emitted * balance_heuristic(path.pdf, light_pdf)
     }
 
     /// What a light's radiance is divided by on its way out to the camera: radiance over n² is what refraction keeps
