@@ -37,7 +37,7 @@ impl<'a> Recorder<'a> {
 
     fn row<const N: usize>(&self, row: &mut LayersRow, [x0, y]: [u32; 2], samples: &dyn Fn(usize) -> Range<u64>) {
         for (at, x) in (0..row.pixels.len()).zip(x0..) {
-            let numbers = self.numbers([x, y], !row.replicates.is_empty());
+            let mut numbers = self.numbers([x, y], !row.replicates.is_empty());
             let mut pixel = row.pixels[at];
             let sample = |index| self.sample::<N>(row, at, [x, y], numbers.sample(index), index);
             pixel.extend(samples(at).map(sample));
@@ -116,7 +116,7 @@ impl Numbers {
     }
 
     #[inline]
-    fn sample(&self, index: u64) -> Sampler {
+    fn sample(&mut self, index: u64) -> Sampler<'_> {
         let count = REPLICATES as u64;
         match self {
             Self::One(pixel) => pixel.sample(index),

@@ -140,7 +140,7 @@ impl<'a> Kernel<'a> {
 
     fn row<const N: usize>(&self, row: &mut [Pixel], [x0, y]: [u32; 2], samples: &Range<u64>) {
         for (pixel, x) in row.iter_mut().zip(x0..) {
-            let numbers = self.samples([x, y]);
+            let mut numbers = self.samples([x, y]);
             pixel.extend(samples.clone().map(|index| self.xyz(&self.trace::<N>([x, y], numbers.sample(index)))));
         }
     }

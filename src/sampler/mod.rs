@@ -1,7 +1,7 @@
 //! The numbers that choose a path.
 //!
-//! They come from a digital net in a table ([`net`]), which each pixel reads through shifts of its own: a load, two exclusive ors and a
-//! hash a number, where scrambling each coordinate anew costs 20–60 ns a sample. Every power-of-two prefix of a pixel's samples
+//! They come from a digital net in a table ([`net`]), which each pixel reads through shifts of its own: two loads and an exclusive or a
+//! number, where scrambling each coordinate anew costs 20–60 ns a sample. Every power-of-two prefix of a pixel's samples
 //! is a stratified net, and the errors of neighbouring pixels cancel.
 //! Beyond the table's dimensions, and for [`Kind::Independent`], numbers are hashes of where they are used.
 //!
@@ -32,6 +32,37 @@ pub struct PixelSamples {
     own: u32,
     /// In the tile; 0 for a pixel alone.
     place: u32,
+    round: Round,
+}
+
+/// How a pixel reads the net while its samples go through it once.
+#[derive(Clone, Copy, Debug)]
+struct Round {
+    number: u64,
+    key: u32,
+    own: u32,
+    shift: Shift,
+}
+
+impl Round {
+    /// Before the first one.
+    const NONE: Self = Self { number: u64::MAX, key: 0, own: 0, shift: [0; net::SHARED] };
+
+    #[inline]
+    fn new(number: u64, pixel: &PixelSamples) -> Self {
+        let round = if number == 0 { 0 } else { hash(number as u32 ^ hash((number >> 32) as u32)) };
+        let (key, own) = (pixel.key ^ round, pixel.own ^ round);
+        let of_place = &NET.shifts[pixel.place as usize];
+        // All at once, by vectors: hashed anew for each number they took 5 % of the instructions of a path among metals.
+        let shift = std::array::from_fn(|d| of_place[d] ^ hash(key ^ turned(d as u32)));
+        Self { number, key, own, shift }
+    }
+}
+
+/// Tells the shifts of a pixel's dimensions apart.
+#[inline]
+fn turned(dimension: u32) -> u32 {
+    dimension.wrapping_mul(0x9e37_79b9)
 }
 
 impl PixelSamples {
@@ -39,32 +70,34 @@ impl PixelSamples {
     pub fn new(kind: Kind, seed: u64, [x, y]: [u32; 2]) -> Self {
         let seed = mixed(0x9e37_79b9, [seed as u32, (seed >> 32) as u32]);
         let key = mixed(seed, [x / TILE, y / TILE]);
-        Self { kind, key, own: mixed(seed, [x, y]), place: net::place_in_tile([x % TILE, y % TILE], key) }
+        let place = net::place_in_tile([x % TILE, y % TILE], key);
+        Self { kind, key, own: mixed(seed, [x, y]), place, round: Round::NONE }
     }
 
     /// The same pixel under a random shift of its own: replicates draw independent points, each as well stratified as the
     /// pixel's own, and those of neighbours know nothing of each other, so that noise may be judged by it.
     pub fn replicate(&self, replicate: u32) -> Self {
         let own = hash(self.own ^ hash(replicate ^ 0x7feb_352d));
-        Self { kind: self.kind, key: own, own, place: 0 }
+        Self { kind: self.kind, key: own, own, place: 0, round: Round::NONE }
     }
 
     /// The same pixel as one of a half of the picture: numbers of two halves know nothing of each other, those of one half still share
     /// a net (MSE on metals up to 4 % above that of one net for all).
     pub fn in_half(&self, half: u32) -> Self {
-        Self { key: hash(self.key ^ hash(half ^ 0x2545_f491)), ..*self }
+        Self { key: hash(self.key ^ hash(half ^ 0x2545_f491)), round: Round::NONE, ..*self }
     }
 
     /// The numbers of sample `index`.
     #[inline]
-    pub fn sample(&self, index: u64) -> Sampler {
-        let block = index / u64::from(POINTS);
-        let round = if block == 0 { 0 } else { hash(block as u32 ^ hash((block >> 32) as u32)) };
-        let net = (self.kind == Kind::Sobol)
-            .then(|| (&NET.points[(index as u32 % POINTS) as usize], &NET.shifts[self.place as usize]));
-        let (key, own) = (self.key ^ round, self.own ^ round);
+    pub fn sample(&mut self, index: u64) -> Sampler<'_> {
+        let number = index / u64::from(POINTS);
+        if self.round.number != number {
+            self.round = Round::new(number, self);
+        }
+        let Round { key, own, shift, .. } = &self.round;
+        let net = (self.kind == Kind::Sobol).then(|| (&NET.points[(index as u32 % POINTS) as usize], shift));
         let stream = hash(own.wrapping_add(hash(index as u32 ^ 0x68bc_21eb)));
-        Sampler { net, key, own, stream, dimension: 0 }
+        Sampler { net, key: *key, own: *own, stream, dimension: 0 }
     }
 }
 
@@ -74,16 +107,16 @@ fn mixed(key: u32, words: [u32; 2]) -> u32 {
 
 /// The stream of numbers of one sample of one pixel. Copies give the same numbers again.
 #[derive(Clone, Copy, Debug)]
-pub struct Sampler {
+pub struct Sampler<'a> {
     /// The sample's point and the pixel's shift.
-    net: Option<(&'static Point, &'static Shift)>,
+    net: Option<(&'static Point, &'a Shift)>,
     key: u32,
     own: u32,
     stream: u32,
     dimension: u32,
 }
 
-impl Sampler {
+impl Sampler<'_> {
     /// Uniform in [0, 1), a multiple of 2⁻²⁴.
     #[inline]
     pub fn uniform(&mut self) -> f32 {
@@ -109,11 +142,7 @@ impl Sampler {
         self.dimension += 1;
         let known = self.net.and_then(|(point, shift)| Some((point.get(dimension as usize)?, shift)));
         let Some((point, shift)) = known else { return hash(self.stream ^ hash(dimension.wrapping_add(self.key))) };
-        let turned = dimension.wrapping_mul(0x9e37_79b9);
-        match shift.get(dimension as usize) {
-            Some(shift) => point ^ shift ^ hash(self.key ^ turned),
-            None => point ^ hash(self.own ^ turned),
-        }
+        point ^ shift.get(dimension as usize).copied().unwrap_or_else(|| hash(self.own ^ turned(dimension)))
     }
 }
 
@@ -138,8 +167,7 @@ mod tests {
     fn pairs_of_dimensions_are_stratified() {
         let mut cells = [0; 256];
         for index in 0..256 {
-            let mut sampler = PixelSamples::new(Kind::Sobol, 1, PIXEL).sample(index);
-            let [u, v] = sampler.uniform_2d();
+            let [u, v] = PixelSamples::new(Kind::Sobol, 1, PIXEL).sample(index).uniform_2d();
             cells[(u * 16.0) as usize * 16 + (v * 16.0) as usize] += 1;
         }
         assert!(cells.iter().all(|&count| count == 1), "the first two Sobol dimensions are a (0, 8, 2)-net");
@@ -151,7 +179,8 @@ mod tests {
             for dimension in [0, 1, 5, 63, 64, 200] {
                 let mean = (0..4096u64)
                     .map(|index| {
-                        let mut sampler = PixelSamples::new(kind, 3, PIXEL).sample(index);
+                        let mut pixel = PixelSamples::new(kind, 3, PIXEL);
+                        let mut sampler = pixel.sample(index);
                         (0..dimension).for_each(|_| {
                             sampler.uniform();
                         });
@@ -181,7 +210,7 @@ mod tests {
         for seed in 0..seeds {
             let mut blocks = [0.0; 256];
             let value = |x: u32, y: u32| {
-                let pixel = PixelSamples::new(kind, seed, [x, y]);
+                let mut pixel = PixelSamples::new(kind, seed, [x, y]);
                 (0..samples).map(|index| integrand(pixel.sample(index).uniform_2d())).sum::<f64>() / samples as f64
             };
             let values: Vec<f64> = (0..size * size).map(|i| value(i % size, i / size)).collect();
@@ -201,7 +230,7 @@ mod tests {
         for seed in 0..12 {
             let mut total = 0.0;
             for i in 0..TILE * TILE {
-                let pixel = PixelSamples::new(Kind::Sobol, seed, [i % TILE, i / TILE]);
+                let mut pixel = PixelSamples::new(Kind::Sobol, seed, [i % TILE, i / TILE]);
                 let value = |index| {
                     let mut sampler = pixel.sample(index);
                     (0..pair).for_each(|_| {
@@ -240,7 +269,7 @@ mod tests {
             let mut errors = [0.0; 2];
             for (x, y) in (0..64).map(|i| (i % 8, i / 8)) {
                 let (half, pixel) = ((x ^ y) & 1, PixelSamples::new(kind, seed, [x, y]));
-                let pixel = if apart { pixel.in_half(half) } else { pixel };
+                let mut pixel = if apart { pixel.in_half(half) } else { pixel };
                 let value = |index| {
                     let mut sampler = pixel.sample(index);
                     (0..pair).for_each(|_| {
