@@ -2,13 +2,15 @@
 //!
 //! - [`Triangles`]: what a file says
 //! - `closed`: whether they enclose a volume, and which way they face
-//! - `block`: four triangles and a line, exact in what it crosses
+//! - `block`: a few triangles and a line, exact in what it crosses
+//! - `eight`: eight numbers at once
 //! - `query`: rays through the tree, and where they begin when they leave a triangle
 //! - `smooth`: normals of meshes that have none
 //! - `placed`: a mesh under a transform; a thousand copies share the triangles
 
 mod block;
 mod closed;
+mod eight;
 mod placed;
 mod query;
 mod smooth;
@@ -25,7 +27,7 @@ use super::tree::{Groups, Tree};
 use super::{Bounds, GeometryError, Triangles, check};
 use block::{Block, WIDTH};
 
-/// Triangles ready for rays. Memory, bytes a triangle of a large mesh: blocks 51, tree 16, what the file said 18–40; while it is built
+/// Triangles ready for rays. Memory, bytes a triangle of a large mesh: blocks 30, tree 12, what the file said 18–40; while it is built
 /// 170 at most (`cargo bench --bench rays -- build 1582`).
 #[derive(Clone, Debug)]
 pub struct Mesh {
@@ -39,8 +41,8 @@ pub struct Mesh {
     shares: OnceLock<Vec<f64>>,
 }
 
-/// Triangles and corners that a mesh can have.
-const MAX: usize = (u32::MAX / 4) as usize;
+/// Triangles and corners that a mesh can have: lanes of blocks are counted in 32 bits, and a block may hold a single triangle.
+const MAX: usize = u32::MAX as usize / WIDTH;
 
 /// A point of a triangle.
 #[derive(Clone, Copy, Debug)]
@@ -65,8 +67,9 @@ impl Mesh {
             Surroundings { volume: surroundings.volume * if inside_out { -1.0 } else { 1.0 }, ..surroundings };
         let block = |leaf| {
             let group = groups.get(leaf);
-            let lane = |k: usize| group[k.min(group.len() - 1)];
-            Block::new(std::array::from_fn(|k| (corners(&triangles, lane(k)), lane(k))))
+            let lane = |k: usize| group[k % group.len()];
+            let lanes: [_; WIDTH] = std::array::from_fn(|k| (corners(&triangles, lane(k)), lane(k)));
+            Block::new(&lanes)
         };
         let blocks: Vec<Block> = (0..groups.len()).into_par_iter().map(block).collect();
         let bounds = blocks.par_iter().map(Block::bounds).reduce(|| Bounds::EMPTY, |a, b| a.union(&b));
@@ -266,7 +269,8 @@ fn examine(triangles: &Triangles) -> Result<(), GeometryError> {
 
 fn plant(triangles: &Triangles) -> (Tree, Groups) {
     let bounds = |triangle: usize| Bounds::of(corners(triangles, triangle as u32));
-    Tree::grouped(triangles.indices.len(), WIDTH as u32, bounds)
+    let fit = |group: &[u32]| Block::fit(group.iter().map(|&triangle| corners(triangles, triangle)));
+    Tree::grouped(triangles.indices.len(), WIDTH as u32, bounds, fit)
 }
 
 fn corners(triangles: &Triangles, triangle: u32) -> [Vec3; 3] {

@@ -19,7 +19,7 @@ use obvhs::ploc::{PlocBuilder, SortPrecision};
 use rayon::prelude::*;
 
 use super::reinsert::reinsert;
-use super::{ITEM, Node, Tree, WIDTH};
+use super::{ITEM, Node, Tree, WIDTH, leaves};
 use crate::geometry::Bounds;
 
 /// Neighbours along Morton's curve, each way, among which a node looks for its best mate.
@@ -60,16 +60,26 @@ fn effort(count: usize) -> f32 {
 /// would go through all others. Surfaces have 1 … 10.
 const CROWDED: f32 = 1000.0;
 
-/// A tree over `count` boxes, up to `size` in a leaf; items are the numbers of leaves.
-pub(super) fn build(count: usize, size: u32, bounds: impl Fn(usize) -> Bounds + Sync) -> (Tree, Groups) {
-    let mut binary = binary(count, size, &bounds);
+/// A tree over `count` boxes, up to `size` in a leaf, those that `fit`; items are the numbers of leaves.
+pub(super) fn build(
+    count: usize,
+    size: u32,
+    bounds: impl Fn(usize) -> Bounds + Sync,
+    fits: impl Fn(&[u32]) -> bool + Sync,
+) -> (Tree, Groups) {
+    let mut binary = binary(count, size, &bounds, fits);
     let mut groups = Groups { order: mem::take(&mut binary.primitive_indices), leaves: Vec::new() };
     let order = fit(&mut binary, &groups.order, &bounds);
     let nodes = gather(&binary, &Plan::new(&binary, &order), &mut groups.leaves);
     (Tree { nodes }, groups)
 }
 
-fn binary(count: usize, size: u32, bounds: &(impl Fn(usize) -> Bounds + Sync)) -> Bvh2 {
+fn binary(
+    count: usize,
+    size: u32,
+    bounds: &(impl Fn(usize) -> Bounds + Sync),
+    fits: impl Fn(&[u32]) -> bool + Sync,
+) -> Bvh2 {
     let whole = (0..count).into_par_iter().map(bounds).reduce(|| Bounds::EMPTY, |a, b| a.union(&b));
     let mut builder = PlocBuilder::new();
     builder.current_nodes = (0..count).into_par_iter().map(|i| leaf(&bounds(i), &whole, i)).collect();
@@ -84,6 +94,7 @@ fn binary(count: usize, size: u32, bounds: &(impl Fn(usize) -> Bounds + Sync)) -
     reinsert(&mut tree, reinsertions);
     // A block costs the same however full it is: the fewer the better, and no slower than obvhs's own 3.
     collapse(&mut tree, size, 10.0);
+    leaves::split(&mut tree, fits, |item| *leaf(&bounds(item as usize), &whole, item as usize).aabb());
     reinsert(&mut tree, 2.0 * reinsertions);
     tree
 }

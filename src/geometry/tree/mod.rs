@@ -7,22 +7,26 @@
 //!
 //! The tree knows only boxes and numbers. What a number means, a shape or a block of triangles, its user decides.
 //!
-//! What a ray costs, on a ball of 1.03 M triangles (`benches/peers/embree`, one thread of a Zen 5 server): camera rays 112 ns for some
-//! 7 nodes and 1 block, diffuse ones 179 for 10 and 2, random ones 320 for 6 and 1. Embree 3.13, robust, takes 1.07, 0.91 and,
-//! from one run to the next, 0.75 to 0.88 times that. With the point and the normals in double precision it is 0.93, 0.90 and 0.74
-//! to 0.84. The rest is a chain from one box test to the next, and memory: half of a random ray's time is spent on the first touch of
-//! nodes and blocks.
+//! What a ray costs, on a ball of 1.03 M triangles (`benches/peers/embree`, one thread of a Zen 5 server): camera rays 110 ns for 6.8
+//! nodes and 1.1 blocks, diffuse ones 176 for 8.5 and 2.1, random ones 360 for 5.6 and 0.9, shadow rays 167 for 8.2 and 2.3. Embree 3.13,
+//! robust, takes 1.09, 0.94, 0.9 and 0.91 times that, but 0.82 to 0.97 for random rays, as others use the memory more or less. The rest is a chain from one
+//! box test to the next, and memory: half of a random ray's time is spent on the first touch of nodes (12 MB) and blocks (31 MB).
 //!
 //! A structure that is written field by field and read whole, as a copy does, is not forwarded from the processor's store buffer: the load
 //! waits until the stores are done. Handing rays over by reference and results in registers took a camera's ray from 147 to 112 ns, with the
 //! same arithmetic. So look at copies first (`perf annotate`: much time at a wide load from the stack).
 //!
 //! Tried, and no faster: to touch what goes onto the stack, or to prefetch it by `_mm_prefetch` (all lines of nodes and of blocks; nothing
-//! beyond the noise); leaves of eight triangles in two blocks (random rays 10 % faster, diffuse ones 7 % slower); huge pages (3 %); bits of hits in
+//! beyond the noise); leaves of eight triangles in two blocks (random rays 10 % faster, diffuse ones 7 % slower); bits of hits in
 //! eight bits rather than 32, or handed back apart from the distances: then the compiler takes [`Node::meet`] apart (25 % slower). Two vectors of
-//! four for one of eight are 2 to 13 % slower.
+//! four for one of eight are 2 to 13 % slower. Since blocks share corners: nodes and blocks in mapped memory with `MADV_HUGEPAGE`, which it got
+//! (nothing beyond the noise in 12 rounds; before, by glibc's tunable, random rays had become 3 to 11 % faster); [`Node::meet`] by vectors of eight
+//! by name, inlined (camera rays 4 % slower; 6 % with the distances kept in a register and fetched lane by lane, shadow rays 14 %); nothing sorted
+//! for shadow rays (8 % more nodes, the same time); all nodes tried elsewhere ([`build`]: blocks fall by 4 %, nodes do not); leaves joined once
+//! more at the end (0.5 % fewer). The nodes' children lie together and their blocks too, as they are made.
 
 mod build;
+mod leaves;
 mod reinsert;
 
 use glam::Vec3;
@@ -99,7 +103,7 @@ impl Tree {
         if boxes.len() <= WIDTH {
             return Self::single(boxes);
         }
-        let (mut tree, groups) = build::build(boxes.len(), 1, |i| boxes[i]);
+        let (mut tree, groups) = build::build(boxes.len(), 1, |i| boxes[i], |_| false);
         for child in tree.nodes.iter_mut().flat_map(|node| &mut node.children) {
             if *child & ITEM != 0 && *child != NOTHING {
                 *child = groups.get((*child & !ITEM) as usize)[0] | ITEM;
@@ -108,9 +112,15 @@ impl Tree {
         tree
     }
 
-    /// A tree over `count` boxes whose leaves hold up to `size` of them. Items are leaves, in the order of the groups.
-    pub fn grouped(count: usize, size: u32, bounds: impl Fn(usize) -> Bounds + Sync) -> (Self, Groups) {
-        build::build(count, size, bounds)
+    /// A tree over `count` boxes whose leaves hold up to `size` of them that `fit` together. Items are leaves, in the order of the
+    /// groups.
+    pub fn grouped(
+        count: usize,
+        size: u32,
+        bounds: impl Fn(usize) -> Bounds + Sync,
+        fit: impl Fn(&[u32]) -> bool + Sync,
+    ) -> (Self, Groups) {
+        build::build(count, size, bounds, fit)
     }
 
     fn single(boxes: &[Bounds]) -> Self {
