@@ -10,7 +10,7 @@ mod meshes;
 #[allow(dead_code, reason = "each test binary uses a part")]
 mod random;
 
-use glam::{Affine3A, Quat, Vec3};
+use glam::{Affine3A, DVec3, Quat, Vec3};
 use random::Random;
 use rayon::prelude::*;
 use spectrel::geometry::{
@@ -28,6 +28,28 @@ fn random_convex() -> Convex {
     let planes: Vec<Plane> =
         (0..60).map(|_| Plane::new(random.direction().as_dvec3(), 0.5 + 0.1 * random.unit() as f64)).collect();
     Convex::from_planes(&planes).unwrap()
+}
+
+/// More planes than are kept from the first look at them to the second.
+fn many_sides() -> Convex {
+    let sides = (0..300).map(|i| {
+        let angle = f64::from(i) * 0.37;
+        Plane::new(DVec3::new(libm::cos(angle), libm::sin(angle), 0.3 * libm::sin(7.0 * angle)).normalize(), 1.0)
+    });
+    let ends = [DVec3::Z, -DVec3::Z].map(|normal| Plane::new(normal, 1.0));
+    let solid = Convex::from_planes(&sides.chain(ends).collect::<Vec<_>>()).unwrap();
+    assert!(solid.facets().len() > 128);
+    solid
+}
+
+/// A slender pyramid: towards its tip a ray hardly approaches any plane.
+fn needle() -> Convex {
+    let tip = DVec3::Z * 10.0;
+    let sides = (0..3).map(|i| {
+        let angle = f64::from(i) * std::f64::consts::TAU / 3.0;
+        Plane::through(tip, DVec3::new(libm::cos(angle), libm::sin(angle), 0.02))
+    });
+    Convex::from_planes(&sides.chain([Plane::new(-DVec3::Z, 0.0)]).collect::<Vec<_>>()).unwrap()
 }
 
 /// Worst distance of a point outside of the solid, in units of its size.
@@ -169,8 +191,9 @@ fn light_that_bounces_for_long_stays_inside() {
 #[test]
 fn rays_beside_each_other_leave_where_each_would_alone() {
     let mut random = Random(11);
-    for solid in [Brilliant::default().solid().unwrap(), random_convex(), Convex::cuboid(Vec3::X, Vec3::ONE).unwrap()] {
-        for i in 0..200_000 {
+    let usual = [Brilliant::default().solid().unwrap(), random_convex(), Convex::cuboid(Vec3::X, Vec3::ONE).unwrap()];
+    for solid in usual.into_iter().chain([many_sides(), needle()]) {
+        for i in 0..120_000 {
             let spread = 10f32.powf(-8.0 * random.unit());
             let corner = solid.vertices()[random.below(solid.vertices().len())];
             let [a, b] = solid.edges()[random.below(solid.edges().len())].map(|v| solid.vertices()[v as usize]);

@@ -52,7 +52,7 @@ fn world(shape: Shape) -> World {
 }
 
 /// Each mesh at each place, once as a copy and once with its corners there.
-fn everywhere(test: impl Fn(&str, &World, &[Vec3], &[[u32; 3]])) {
+fn everywhere(mut test: impl FnMut(&str, &World, &[Vec3], &[[u32; 3]])) {
     for (name, triangles) in solids() {
         let mesh = Arc::new(Mesh::new(triangles.clone()).unwrap());
         for (place, map) in placements() {
@@ -65,6 +65,31 @@ fn everywhere(test: impl Fn(&str, &World, &[Vec3], &[[u32; 3]])) {
             test(&format!("{name}, {place}"), &world(Placed::new(Arc::new(baked)).into()), &there.positions, &indices);
         }
     }
+}
+
+/// Where a mesh keeps a triangle is told to rays that leave it, and may be told wrongly.
+#[test]
+fn a_wrong_place_of_the_triangle_left_changes_nothing() {
+    let mut random = Random(5);
+    everywhere(|name, world, positions, indices| {
+        let center = positions.iter().sum::<Vec3>() / positions.len() as f32;
+        for _ in 0..30 {
+            let [a, b, c] = indices[random.below(indices.len())].map(|corner| positions[corner as usize]);
+            let direction = a * 0.5 + b * 0.3 + c * 0.2 - center;
+            let Some(hit) = world.closest(&Ray::free(center, direction.normalize()), f32::INFINITY) else { continue };
+            for (side, toward) in [(Side::Inside, -random.direction()), (Side::Outside, random.direction())] {
+                let found = |place| {
+                    let departs = Departure::Surface { shape: hit.shape, facet: hit.facet, side, place };
+                    let ray = Ray { origin: hit.point, direction: toward, departs };
+                    (world.closest(&ray, f32::INFINITY), world.occluded(&ray, 1e6, None))
+                };
+                let right = found(hit.place);
+                for place in [0, 1, hit.place ^ 1, hit.place.wrapping_add(6), u32::MAX] {
+                    assert_eq!(found(place), right, "{name}: {place} for {}", hit.place);
+                }
+            }
+        }
+    });
 }
 
 /// A point inside, by more than the rounding of a free origin: somewhere below a triangle.

@@ -75,7 +75,8 @@ pub struct Met {
     pub shape: ShapeId,
     pub side: Side,
     pub facet: u32,
-    pub place: u32,
+    /// Where a mesh keeps the triangle for rays; not a hint here.
+    pub(super) place: u32,
 }
 
 /// Where a ray meets a surface.

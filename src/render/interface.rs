@@ -211,6 +211,7 @@ impl<const P: u32> Tracer<'_, P> {
         let Some(exits) = exits else { return Outcome::Ended };
         let rank = self.scene.object(entry.hit.shape).rank;
         path.media = path.media.across(Filling { rank, medium: entry.interface.medium }, false);
+        // The entry's facet: of a convex solid left outwards nobody asks which.
         let departs = entry.hit.departure(Side::Outside);
         let ray = |lane| Ray { origin: exits.origins.get(lane), direction: exits.directions.get(lane), departs };
         if N == 1 {

@@ -194,6 +194,34 @@ mod tests {
         }
     }
 
+    /// What a pixel that knows nothing yet gives in the order of time, one gives that has gone through other rounds, halves and replicates.
+    #[test]
+    fn what_was_drawn_before_changes_nothing() {
+        let numbers = |pixel: &mut PixelSamples, index| {
+            let mut sampler = pixel.sample(index);
+            [(); 80].map(|()| sampler.uniform())
+        };
+        let round = u64::from(POINTS);
+        for kind in [Kind::Sobol, Kind::Independent] {
+            let fresh = PixelSamples::new(kind, 7, PIXEL);
+            let mut used = fresh;
+            let mut firsts = Vec::new();
+            for index in [0, round, 0, 5 * round + 3, 1 << 40, 1, round] {
+                assert_eq!(numbers(&mut used, index), numbers(&mut fresh.clone(), index), "{kind:?} {index}");
+                assert_eq!(
+                    numbers(&mut used.in_half(1), index),
+                    numbers(&mut fresh.in_half(1), index),
+                    "{kind:?} {index}"
+                );
+                assert_eq!(numbers(&mut used.replicate(2), 1), numbers(&mut fresh.replicate(2), 1), "{kind:?} {index}");
+                firsts.push(numbers(&mut used, index)[7].to_bits());
+            }
+            firsts.sort_unstable();
+            firsts.dedup();
+            assert_eq!(firsts.len(), 5, "{kind:?}: samples differ, repeats do not");
+        }
+    }
+
     #[test]
     fn pixels_and_seeds_differ_and_repeats_agree() {
         let first = |seed, pixel| PixelSamples::new(Kind::Sobol, seed, pixel).sample(0).uniform();

@@ -85,7 +85,7 @@ fn largest_of<const N: usize>(mut numbers: [f32; N]) -> f32 {
         }
         left = half;
     }
-    numbers[0]
+    numbers.first().copied().unwrap_or(0.0)
 }
 
 /// Blocks whose nearness is kept from the first look at them to the second, 128 planes: cuts have fewer.

@@ -28,7 +28,7 @@ use super::{Bounds, GeometryError, Triangles, check};
 use block::{Block, WIDTH};
 
 /// Triangles ready for rays. Memory, bytes a triangle of a large mesh: blocks 30, tree 12, what the file said 18–40; while it is built
-/// 170 at most (`cargo bench --bench rays -- build 1582`).
+/// 166 at most (`cargo bench --bench rays -- build 1582`).
 #[derive(Clone, Debug)]
 pub struct Mesh {
     triangles: Triangles,
@@ -65,12 +65,8 @@ impl Mesh {
         }
         let surroundings =
             Surroundings { volume: surroundings.volume * if inside_out { -1.0 } else { 1.0 }, ..surroundings };
-        let block = |leaf| {
-            let group = groups.get(leaf);
-            let lane = |k: usize| group[k % group.len()];
-            let lanes: [_; WIDTH] = std::array::from_fn(|k| (corners(&triangles, lane(k)), lane(k)));
-            Block::new(&lanes)
-        };
+        let block =
+            |leaf| Block::new(groups.get(leaf).iter().map(|&triangle| (corners(&triangles, triangle), triangle)));
         let blocks: Vec<Block> = (0..groups.len()).into_par_iter().map(block).collect();
         let bounds = blocks.par_iter().map(Block::bounds).reduce(|| Bounds::EMPTY, |a, b| a.union(&b));
         Ok(Self { triangles, blocks, tree, bounds, surroundings, inside_out, shares: OnceLock::new() })
@@ -200,7 +196,8 @@ impl Spot {
     #[inline]
     fn away_from_edges(near: DVec3, corners: [DVec3; 3], margin: f64, size: f64) -> Self {
         let spot = Self::nearest(near, corners);
-        // Without roots for most: a weight times twice the area is a distance from an edge times its length, squared at most 12 size².
+        // Without roots for most: a weight times twice the area is a distance from an edge times its length, squared at most 12 size². (Four
+        // times that, so that rounding does not matter.)
         let least = spot.weights[0].min(spot.weights[1]).min(spot.weights[2]);
         let far = 2.0 * margin * size;
         if least * least * spot.normal.length_squared() > 12.0 * far * far {

@@ -6,7 +6,7 @@
 //! until there are eight it saves 1–3 % of a ray's time.
 //!
 //! obvhs is given nodes made in place rather than boxes to make nodes of, and nodes of 32 bytes: building a mesh takes 166 bytes for each
-//! triangle at most, where `build_bvh2` with boxes of ours and of its own took 310.
+//! triangle at most (the process whole), where `build_bvh2` with boxes of ours and of its own took 310.
 
 use std::mem;
 
@@ -47,7 +47,7 @@ impl Groups {
 
 /// Of all nodes of two, how many are tried elsewhere at first; later rounds try fewer. The more, the better the tree and the longer its
 /// build. On a ball of 1.03 M triangles camera rays had 0.79, 0.83 and 0.82 of Embree's speed with 0.05, 0.3 and 1.0, diffuse ones
-/// 0.84, 0.85 and 0.90. The time for it is in proportion; while obvhs did it, thrice what it is now, 0.05 was what fitted into 8 s at 10 M.
+/// 0.84, 0.85 and 0.90 (of an earlier kernel; trees are the same). The time for it is in proportion; meshes above 3 M get less, as their builds are what one waits for.
 fn effort(count: usize) -> f32 {
     match count {
         0..50_000 => 1.0,
