@@ -137,8 +137,8 @@ impl Block {
     #[inline]
     pub fn corners(&self, lane: usize) -> [Vec3; 3] {
         [0, 1, 2].map(|k| {
-            let number = self.number(lane, k);
-            Vec3::from_array(self.corners.each_ref().map(|axis| axis[number]))
+            let (number, [x, y, z]) = (self.number(lane, k), &self.corners);
+            Vec3::new(x[number], y[number], z[number])
         })
     }
 

@@ -213,7 +213,7 @@ impl Spot {
     }
 
     /// `least` gives the smallest weights allowed, from the edges opposite of the corners and four times the area, squared.
-    #[inline]
+    #[inline(always)]
     fn within(near: DVec3, [a, b, c]: [DVec3; 3], least: impl FnOnce([DVec3; 3], f64) -> [f64; 3]) -> Self {
         let (ab, ac, ap) = (b - a, c - a, near - a);
         let normal = ab.cross(ac);
