@@ -45,8 +45,8 @@ def measure(scene, references, threads, quick, tell):
         pair("8 lanes against 1, metals: CPU time", "≤ 1.15", "metals", 32, SIZE, [*SIZE, *one]),
         pair("8 lanes against 1, inside the dispersive diamond: CPU time", "≤ 1.6", "stone", 64, STONE, [*STONE, *one]),
         pair("8 lanes against 1, the diamond and what is around it: CPU time", None, "diamond", 64, STONE, [*STONE, *one]),
-        faster("one thread against two, metals: time on the clock", "≥ 1.9", "metals", 64),
-        faster("one thread against two, mesh: time on the clock", "≥ 1.9", "mesh", 16),
+        faster("one thread against two, metals, 256 samples: time on the clock", "≥ 1.9", "metals", 256),
+        faster("one thread against two, mesh with its loading, 16 samples: time on the clock", "≥ 1.9", "mesh", 16),
         memory(scene("cornell"), 512 if quick else 8192, threads, tell),
     ]
     return rows + [nets(scene, name, reference, options, quick, tell) for name, options, reference in references]
