@@ -3,9 +3,9 @@
 //! A render cannot fail. It is cut into passes of [`PASS`] samples over all rows, so that what there is at any time is a
 //! whole picture; the film's sums are exact, so neither the cut nor the threads change a bit of it.
 //!
-//! The budget of a sample of five metals on a floor under a lamp and a sky (`benches/peers/metals.toml`): 2,640 instructions, 240 ns on a
-//! core of a Zen 5 server. Shared out by callgrind, in ns: rays 101, paths with their frames and MIS 48, random numbers 27, choosing
-//! lights and points on them 23, Fresnel and microfacets 15, observer and film 14, wavelengths and camera 12. Spectra are a small part of it,
+//! The budget of a sample of five metals on a floor under a lamp and a sky (`benches/peers/metals.toml`): 2,390 instructions, 205 ns on a
+//! core of a Zen 5 server. Shared out by callgrind, in ns: rays 83, paths with their frames and MIS 45, choosing lights and points on them
+//! 22, random numbers 17, Fresnel and microfacets 14, observer and film 13, wavelengths and camera 11. Spectra are a small part of it,
 //! so eight lanes cost hardly more than one; what is to be gained lies in rays.
 
 mod features;
