@@ -7,10 +7,10 @@
 //!
 //! The tree knows only boxes and numbers. What a number means, a shape or a block of triangles, its user decides.
 //!
-//! What a ray costs, on a ball of 1.03 M triangles (`benches/peers/embree`, one thread of a Zen 5 server): camera rays 110 ns for 6.8
-//! nodes and 1.1 blocks, diffuse ones 176 for 8.5 and 2.1, random ones 360 for 5.6 and 0.9, shadow rays 167 for 8.2 and 2.3. Embree 3.13,
-//! robust, takes 1.09, 0.94, 0.89 and 0.91 times that; for random rays 0.82 to 0.97, as others use the memory more or less. The rest is
-//! a chain from one box test to the next, and memory: half of a random ray's time is spent on the first touch of nodes (12 MB) and blocks
+//! What a ray costs, on a ball of 1.03 M triangles (`benches/peers/embree`, one thread of a Zen 5 server): camera rays 112 ns for 6.8
+//! nodes and 1.1 blocks, diffuse ones 181 for 8.5 and 2.1, random ones 351 for 5.6 and 0.9, shadow rays 169 for 8.2 and 2.3. Embree 3.13,
+//! robust, takes 1.08, 0.94, 0.92 and 0.91 times that, from one round to the next 0.82 to 1.00 for random rays, as others use the memory
+//! more or less. With the point and the normals in double precision it is 0.95, 0.94 and 0.92. The rest is a chain from one box test to the next, and memory: half of a random ray's time is spent on the first touch of nodes (12 MB) and blocks
 //! (31 MB).
 //!
 //! A structure that is written field by field and read whole, as a copy does, is not forwarded from the processor's store buffer: the load
