@@ -52,6 +52,9 @@ impl Round {
     fn new(number: u64, pixel: &PixelSamples) -> Self {
         let round = if number == 0 { 0 } else { hash(number as u32 ^ hash((number >> 32) as u32)) };
         let (key, own) = (pixel.key ^ round, pixel.own ^ round);
+        if pixel.kind == Kind::Independent {
+            return Self { number, key, own, ..Self::NONE };
+        }
         let of_place = &NET.shifts[pixel.place as usize];
         // All at once, by vectors: hashed anew for each number they took 5 % of the instructions of a path among metals.
         let shift = std::array::from_fn(|d| of_place[d] ^ hash(key ^ turned(d as u32)));

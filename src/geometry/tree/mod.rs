@@ -10,8 +10,8 @@
 //! What a ray costs, on a ball of 1.03 M triangles (`benches/peers/embree`, one thread of a Zen 5 server): camera rays 112 ns for 6.8
 //! nodes and 1.1 blocks, diffuse ones 181 for 8.5 and 2.1, random ones 351 for 5.6 and 0.9, shadow rays 169 for 8.2 and 2.3. Embree 3.13,
 //! robust, takes 1.08, 0.94, 0.92 and 0.91 times that, from one round to the next 0.82 to 1.00 for random rays, as others use the memory
-//! more or less. With the point and the normals in double precision it is 0.95, 0.94 and 0.92. The rest is a chain from one box test to the next, and memory: half of a random ray's time is spent on the first touch of nodes (12 MB) and blocks
-//! (31 MB).
+//! more or less. With the point and the normals in double precision it is 0.95, 0.94 and 0.92. The rest is a chain from one box test to
+//! the next, and memory: half of a random ray's time is spent on the first touch of nodes (12 MB) and blocks (31 MB).
 //!
 //! A structure that is written field by field and read whole, as a copy does, is not forwarded from the processor's store buffer: the load
 //! waits until the stores are done. Handing rays over by reference and results in registers took a camera's ray from 147 to 112 ns, with the
@@ -22,9 +22,9 @@
 //! eight bits rather than 32, or handed back apart from the distances: then the compiler takes [`Node::meet`] apart (25 % slower). Two vectors of
 //! four for one of eight are 2 to 13 % slower. Since blocks share corners: nodes and blocks in mapped memory with `MADV_HUGEPAGE`, which it got
 //! (nothing beyond the noise in 12 rounds; before, by glibc's tunable, random rays had become 3 to 11 % faster); [`Node::meet`] by vectors of eight
-//! by name, inlined (camera rays 4 to 6 % slower, the latter with the distances kept in a register and fetched lane by lane, shadow rays 14 %); nothing sorted
-//! for shadow rays (8 % more nodes, the same time); all nodes tried elsewhere ([`build`]: blocks fall by 4 %, nodes do not); leaves joined once
-//! more at the end (0.5 % fewer). The nodes' children lie together and their blocks too, as they are made.
+//! by name, inlined (camera rays 4 to 6 % slower, the latter with the distances kept in a register and fetched lane by lane, shadow rays
+//! 14 %); nothing sorted for shadow rays (8 % more nodes, the same time); all nodes tried elsewhere ([`build`]: blocks fall by 4 %, nodes do
+//! not); leaves joined once more at the end (0.5 % fewer). The nodes' children lie together and their blocks too, as they are made.
 
 mod build;
 mod leaves;
