@@ -47,7 +47,8 @@ impl Groups {
 
 /// Of all nodes of two, how many are tried elsewhere at first; later rounds try fewer. The more, the better the tree and the longer its
 /// build. On a ball of 1.03 M triangles camera rays had 0.79, 0.83 and 0.82 of Embree's speed with 0.05, 0.3 and 1.0, diffuse ones
-/// 0.84, 0.85 and 0.90 (of an earlier kernel; trees are the same). The time for it is in proportion; meshes above 3 M get less, as their builds are what one waits for.
+/// 0.84, 0.85 and 0.90 (of an earlier kernel). The time for it is in proportion; meshes above 3 M get less, as their builds are what one
+/// waits for.
 fn effort(count: usize) -> f32 {
     match count {
         0..50_000 => 1.0,

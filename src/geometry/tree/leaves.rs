@@ -1,4 +1,4 @@
-//! Leaves whose items do not fit together become two.
+//! Leaves whose items do not fit together become several, as few as can be.
 //!
 //! Leaves are first made by number alone, as large as may be, since one costs the same however full it is. To ask of every part of the tree
 //! whether it fits took 2 s longer for 10 M triangles.
@@ -17,11 +17,10 @@ pub(super) fn split(binary: &mut Bvh2, fits: impl Fn(&[u32]) -> bool + Sync, bou
     for (at, parts) in parts {
         // The first part takes the leaf's place.
         let beyond = binary.nodes.len() as u32 - 1;
-        let placed = parts.into_iter().map(|mut node| {
+        let mut placed = parts.into_iter().map(|mut node| {
             node.first_index += if node.is_leaf() { 0 } else { beyond };
             node
         });
-        let mut placed = placed.peekable();
         if let Some(top) = placed.next() {
             binary.nodes[at as usize] = top;
         }
