@@ -76,7 +76,7 @@ pub enum FilterName {
     BlackmanHarris,
 }
 
-/// Where random numbers come from: scrambled Sobol points that neighbouring pixels share, or independent ones for statistics.
+/// Where random numbers come from: scrambled points in the manner of Sobol that neighbouring pixels share, or independent ones for statistics.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Serialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
 pub enum SamplerName {
