@@ -18,6 +18,7 @@ pub mod convex;
 pub mod cuts;
 mod disk;
 mod error;
+mod escape;
 mod flat;
 pub mod loaders;
 pub mod mesh;

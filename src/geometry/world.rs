@@ -1,7 +1,8 @@
 //! All shapes of a scene, and the two questions that are asked of them.
 
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 
+use super::escape::Few;
 use super::ray::{Crossing, Departure, Hit, Met, Probe, Ray, ShapeId, Side, Surface, Target, sum_abs};
 use super::shape::Leaving;
 use super::tree::{BoxRay, Tree};
@@ -21,6 +22,7 @@ pub struct World {
     /// Largest extent of a shape.
     largest: f32,
     tree: Option<Tree>,
+    pub(super) few: Option<Few>,
 }
 
 /// What the origin of each ray is judged by, which takes two roots for a flat shape.
@@ -57,7 +59,8 @@ impl World {
         let solidity = |shape: &Shape| Solidity { extent: shape.extent(), is_solid: shape.is_solid() };
         let solidity: Vec<Solidity> = shapes.iter().map(solidity).collect();
         let largest = solidity.iter().map(|shape| shape.extent).fold(0.0, f32::max);
-        Ok(Self { shapes, solidity, bounds, largest, tree })
+        let few = Few::new(&boxes);
+        Ok(Self { shapes, solidity, bounds, largest, tree, few })
     }
 
     pub fn shapes(&self) -> &[Shape] {
@@ -149,11 +152,25 @@ impl World {
         let probe = self.probe(ray);
         let departed = departed(ray);
         let mut hidden = false;
-        self.visit(ray, &probe, limit, |shape, limit| {
-            hidden |= shape != departed && self.shapes[shape as usize].hides(&probe, limit, but(shape));
-            if hidden { -1.0 } else { limit }
-        });
+        match &self.tree {
+            None => {
+                hidden =
+                    (0..self.shapes.len() as u32).any(|shape| self.hides(shape, departed, &probe, limit, but(shape)))
+            }
+            Some(tree) => {
+                tree.visit(&BoxRay::new(ray.origin, ray.direction, probe.origin_error), limit, |shape, limit| {
+                    hidden = self.hides(shape, departed, &probe, limit, but(shape));
+                    if hidden { -1.0 } else { limit }
+                })
+            }
+        }
         hidden
+    }
+
+    /// In its callers: called as a closure from both of them it took 2 % of the time of a path among metals.
+    #[inline(always)]
+    fn hides(&self, shape: u32, departed: u32, probe: &Probe, limit: f32, but: Option<u32>) -> bool {
+        shape != departed && self.shapes[shape as usize].hides(probe, limit, but)
     }
 
     /// Texture coordinates of a hit, v upwards; none where the shape has none.
@@ -255,11 +272,16 @@ impl World {
         let (origin_error, leaves_solid) = match ray.departs {
             Departure::Free => (0.0, false),
             Departure::Surface { shape, side, .. } => {
-                let Solidity { extent, is_solid } = self.solidity(shape);
-                (4.0 * f32::EPSILON * (sum_abs(ray.origin) + extent), is_solid && side == Side::Outside)
+                (self.origin_error(ray.origin, shape), self.solidity(shape).is_solid && side == Side::Outside)
             }
         };
         Probe { ray, origin_error, leaves_solid }
+    }
+
+    /// How far an origin on a shape may be off.
+    #[inline]
+    pub(super) fn origin_error(&self, origin: Vec3, shape: ShapeId) -> f32 {
+        4.0 * f32::EPSILON * (sum_abs(origin) + self.extent(shape))
     }
 
     /// Point and normals of what a ray has met in this world.

@@ -3,7 +3,7 @@
 use super::media::MediaStack;
 use super::path::{Outcome, Path};
 use super::rough::Rough;
-use super::stone::Entry;
+use super::stone::{Entry, points};
 use super::{Tracer, rays};
 use crate::bsdf::dielectric::{reflect, refract, refract_lanes};
 use crate::bsdf::{Directions, choose};
@@ -218,8 +218,16 @@ impl<const P: u32> Tracer<'_, P> {
             path.ray = ray(0);
             return Outcome::GoesOn;
         }
-        for lane in 0..N {
-            self.go_on_alone(path, lane, ray(lane), *sampler, radiance);
+        let escapes = self.scene.world.escape(&exits.origins, &points(&exits.directions), entry.hit.shape);
+        for (lane, escapes) in escapes.into_iter().enumerate() {
+            if escapes && path.throughput[lane] > 0.0 {
+                rays::count(1);
+                let offset = path.offset + lane as u32;
+                let arriving = self.environment::<1>(exits.directions.get(lane), path.pdf, offset);
+                radiance[lane] += path.throughput[lane] * arriving[0];
+            } else {
+                self.go_on_alone(path, lane, ray(lane), *sampler, radiance);
+            }
         }
         Outcome::Ended
     }

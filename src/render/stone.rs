@@ -90,6 +90,6 @@ fn advance<const N: usize>(origins: &mut Points<N>, directions: &Directions<N>, 
 
 /// The room of shapes knows no directions, only triples of lanes.
 #[inline]
-fn points<const N: usize>(directions: &Directions<N>) -> Points<N> {
+pub fn points<const N: usize>(directions: &Directions<N>) -> Points<N> {
     Points { x: directions.x, y: directions.y, z: directions.z }
 }
