@@ -165,7 +165,7 @@ fn less_error_by_more_samples(found: &Value) {
 fn what_is_another_picture_has_a_bias() {
     let args = [
         "--spp",
-        "4,4096",
+        "4,16384",
         "--reference-spp",
         "65536",
         "--models",

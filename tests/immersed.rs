@@ -7,7 +7,7 @@
 mod common;
 
 use common::files::obj;
-use common::plates::{Layer, check, fresnel, looking, pile};
+use common::plates::{Layer, check, check_by, fresnel, looking, pile};
 use common::{lanes::with, library, scene};
 use glam::DVec3;
 use spectrel::geometry::Brilliant;
@@ -42,7 +42,7 @@ fn through(name: &str, objects: &str, from: DVec3, lamp_at: DVec3, layers: &[Lay
     let text = format!("{}{}{objects}{lamp}", looking(from, lamp_at, 160), materials());
     let light = |layers: &[Layer]| 100.0 * pile(1.0, layers, 1.0, 1.0).t;
     let wrong: Vec<f64> = wrong.iter().map(|layers| light(layers)).collect();
-    check(name, &mut scene(&text, &with(8, 160)), light(layers), &wrong);
+    check_by(64, name, &mut scene(&text, &with(8, 160)), light(layers), &wrong);
 }
 
 fn layer((n, absorption): (f64, f64), thickness: f64) -> Layer {

@@ -19,6 +19,8 @@ pub(super) struct Flat {
     /// a = (p − centre)·dual_u, b = (p − centre)·dual_v.
     dual_u: Vec3,
     dual_v: Vec3,
+    /// Sums of the components' absolute values of both.
+    sums: [f32; 2],
 }
 
 /// A crossing of the plane, with its coordinates there and how far they may be off.
@@ -45,14 +47,16 @@ impl Flat {
         check::length(what, du.length())?;
         check::length(what, dv.length())?;
         let normal = cross / jacobian;
+        let (dual_u, dual_v) = ((dv.cross(normal) / jacobian).as_vec3(), (normal.cross(du) / jacobian).as_vec3());
         Ok(Self {
             center,
             u,
             v,
             normal: normal.as_vec3(),
             jacobian: jacobian as f32,
-            dual_u: (dv.cross(normal) / jacobian).as_vec3(),
-            dual_v: (normal.cross(du) / jacobian).as_vec3(),
+            dual_u,
+            dual_v,
+            sums: [sum_abs(dual_u), sum_abs(dual_v)],
         })
     }
 
@@ -99,8 +103,8 @@ impl Flat {
             crossing: Crossing { t, slack, side, facet: 0, place: 0 },
             a: w.dot(self.dual_u),
             b: w.dot(self.dual_v),
-            margin_a: margin * sum_abs(self.dual_u),
-            margin_b: margin * sum_abs(self.dual_v),
+            margin_a: margin * self.sums[0],
+            margin_b: margin * self.sums[1],
         })
     }
 

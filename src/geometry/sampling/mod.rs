@@ -46,7 +46,7 @@ impl Shape {
             Shape::Convex(s) => facets::sample(s, reference, u),
             Shape::Mesh(s) => mesh::sample(s, reference, u),
         }?;
-        (toward.pdf > 0.0 && toward.pdf.is_finite()).then_some(toward)
+        (toward.pdf > 0.0 && toward.pdf < f32::INFINITY).then_some(toward)
     }
 
     /// Density with which [`Shape::sample_toward`] draws `direction`, 1/sr, for a ray from `reference` along `direction`
@@ -59,7 +59,7 @@ impl Shape {
             Shape::Convex(s) => facets::pdf(s, reference, direction, hit),
             Shape::Mesh(s) => mesh::pdf(s, reference, direction, hit),
         };
-        if pdf > 0.0 && pdf.is_finite() { pdf } else { 0.0 }
+        if pdf > 0.0 && pdf < f32::INFINITY { pdf } else { 0.0 }
     }
 }
 
@@ -83,9 +83,9 @@ fn by_area(reference: Vec3, point: Vec3, normal: Vec3, facet: u32, area: f32) ->
     if !(distance > 0.0 && distance < f32::INFINITY) {
         return None;
     }
-    let direction = w / distance;
-    let pdf = area_pdf(reference, direction, point, normal, area);
-    Some(Toward { point, normal, facet, direction, distance, pdf })
+    // Not by way of the direction: one division need not wait for the other.
+    let pdf = distance * distance * (distance / (normal.dot(w).abs() * area));
+    Some(Toward { point, normal, facet, direction: w / distance, distance, pdf })
 }
 
 /// distance² / (|cos| area).

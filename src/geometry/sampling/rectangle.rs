@@ -38,13 +38,14 @@ struct Spherical {
 
 impl Spherical {
     fn new(rectangle: &Rectangle, reference: Vec3) -> Option<Self> {
+        // Before anything else: most lamps look small, and the lengths of the edges take longer than all that follows for those.
+        if rectangle.area() < SMALL * (rectangle.center() - reference).length_squared() {
+            return None;
+        }
         let [u, v] = [rectangle.flat.u, rectangle.flat.v].map(|e| e.as_dvec3());
         let (half_u, half_v) = (u.length(), v.length());
         let (x, y) = (u / half_u, v / half_v);
         if x.dot(y).abs() > RIGHT {
-            return None;
-        }
-        if rectangle.area() < SMALL * (rectangle.center() - reference).length_squared() {
             return None;
         }
         let d = rectangle.center().as_dvec3() - reference.as_dvec3();
