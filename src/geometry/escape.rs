@@ -101,7 +101,7 @@ mod tests {
             ((mixed ^ mixed >> 15).wrapping_mul(277_803_737) >> 8) as f32 / 16_777_216.0 - 0.5
         };
         let side = |lane: usize| (number as usize + lane) % 3;
-        let sign = |lane: usize| if number / 3 % 2 == 0 && lane < 5 { 1.0 } else { -1.0 };
+        let sign = |lane: usize| if (number / 3).is_multiple_of(2) && lane < 5 { 1.0 } else { -1.0 };
         let origins = Points::from_fn(|lane| {
             let mut origin = Vec3::from_array([0, 1, 2].map(|of| random(lane, of)));
             origin[side(lane)] = 0.5 * sign(lane);
@@ -109,7 +109,7 @@ mod tests {
         });
         let directions = Points::from_fn(|lane| {
             let mut direction =
-                Vec3::from_array([3, 4, 5].map(|of| if number % 2 == 0 { random(lane, of) } else { 0.0 }));
+                Vec3::from_array([3, 4, 5].map(|of| if number.is_multiple_of(2) { random(lane, of) } else { 0.0 }));
             direction[side(lane)] = (direction[side(lane)].abs() + 0.1) * sign(lane);
             direction.normalize()
         });
