@@ -2,7 +2,7 @@
 """Finds what `src/sampler/net.rs` knows by heart: the matrices of its pairs of dimensions, and which columns of Pascal's matrix are mixed.
 
     pip install numpy
-    python3 tools/sampler_net.py        # a quarter of an hour on two cores; prints SPREAD and MIXED
+    python3 tools/sampler_net.py        # two minutes on two cores; prints SPREAD, MIXED and LATER
 
 Everything is linear over the numbers modulo 2: digit r of a coordinate of point n is the sum of those digits of n that row r of the
 coordinate's matrix names. The matrices of a pair are U and Pascal's times U, for an upper triangular U. Whatever U is, the pair is
@@ -13,8 +13,9 @@ independent points leave (A. B. Owen, "Monte Carlo variance of scrambled net qua
 the integrand that needs k₁, k₂, … digits of the coordinates is left if rows up to these are dependent, 2^(rows − rank) times as often as
 of independent points. Its variance is 2^(−Σ k) for an edge along the axes, 2^(−min k) 4^(−Σ (k − min k)) for one at an angle.
 
-Matrices grow column by column: of all new columns for all matrices kept so far the best go on. Where a set of dimensions is worse
-than a quarter of all random matrices, that counts by its square, so that none is bad for the good of others.
+Matrices grow column by column: of all new columns for all matrices kept so far the best go on. What a set of
+dimensions leaves, over what a quarter of all random matrices stay below, counts by its square, so that none is bad for the good of others.
+Later pairs have random matrices, of which those are taken that go well with all before.
 """
 
 import itertools
@@ -32,6 +33,8 @@ COUNT = [0, 0.5, 0.5, 0.5, 2, 1, 3, 1.5, 3, 1, 1.5, 0.3, 0.5]
 # Matrices that are kept from column to column, of the pairs that surfaces draw first and of later ones, and how many go on from each.
 KEPT, KEPT_LATER, NEXT = 32, 8, 8
 FIRST_PAIRS = 8
+# Pairs with matrices of their own; those after them have random ones, by the best of so many numbers.
+TABLED, NUMBERS = 10, 100
 # Numbers of samples 2^m and of pixels 2^k, with their weights: few samples, and blocks of 2 × 2 and 4 × 4, count most.
 SAMPLES = {0: 3, 1: 2, 2: 2, 3: 1, 4: 1}
 PIXELS = {1: 1, 2: 3, 3: 1, 4: 2}
@@ -157,17 +160,54 @@ def longer(task):
 
 def matrices(pool):
     known = {0: ONE, 1: [int(row) for row in times_pascal(ONE)]}
-    for pair in range(1, DIMENSIONS // 2):
+    for pair in range(1, TABLED):
         states = [(0.0, [])]
         # Old dimensions that are far away are not looked at, but for those of the pixel, the wavelength and the first surfaces.
         near = {d: rows for d, rows in known.items() if d < 8 or d >= 2 * pair - 8}
         for _ in range(DIGITS):
             found = pool.map(longer, [(cost, rows, pair, near) for cost, rows in states], chunksize=1)
             states = sorted(itertools.chain(*found))[: KEPT if pair < FIRST_PAIRS else KEPT_LATER]
-        known[2 * pair] = states[0][1]
-        known[2 * pair + 1] = [int(row) for row in times_pascal(states[0][1])]
+        add(known, pair, states[0][1])
         print(f"pair {pair}: {states[0][0]:.2f}", flush=True)
     return known
+
+
+def add(known, pair, upper):
+    known[2 * pair] = upper
+    known[2 * pair + 1] = [int(row) for row in times_pascal(upper)]
+
+
+def mixed_bits(value):
+    """`hash` of `net.rs`."""
+    state = (value * 747796405 + 2891336453) & 0xFFFFFFFF
+    word = ((state >> ((state >> 28) + 4)) ^ state) * 277803737 & 0xFFFFFFFF
+    return (word >> 22) ^ word
+
+
+def random_upper(pair, number):
+    columns = [mixed_bits(mixed_bits(pair << 5 | c) ^ number) & ((1 << c) - 1) | 1 << c for c in range(DIGITS)]
+    return [sum((column >> r & 1) << c for c, column in enumerate(columns)) for r in range(DIGITS)]
+
+
+def clashes(one, other, m):
+    """How many of the shares of three leading rows are dependent: then some of their first digits are one function of each other's."""
+    return sum(not whole for whole in independent([rows(one, 3, m), rows(other, 3, m)], 3))
+
+
+def numbers(known):
+    """Of the pairs without matrices of their own: which let each go well with each dimension before."""
+    chosen = []
+    for pair in range(TABLED, DIMENSIONS // 2):
+
+        def cost(number):
+            upper = random_upper(pair, number)
+            lower = [int(row) for row in times_pascal(upper)]
+            sets = itertools.product((upper, lower), known.values(), ((6, 1), (8, 4), (10, 16)))
+            return sum(weight * clashes(new, old, m) for new, old, (m, weight) in sets)
+
+        chosen.append(min(range(NUMBERS), key=cost))
+        add(known, pair, random_upper(pair, chosen[-1]))
+    return chosen
 
 
 def packed(upper):
@@ -257,8 +297,9 @@ def mixes(known):
 def main():
     with Pool() as pool:
         known = matrices(pool)
-    print("SPREAD", [hex(packed(known[2 * pair])) for pair in range(1, DIMENSIONS // 2)])
+    print("SPREAD", [hex(packed(known[2 * pair])) for pair in range(1, TABLED)])
     print("MIXED", mixes(known))
+    print("LATER", numbers(known))
 
 
 if __name__ == "__main__":

@@ -5,7 +5,6 @@
 
 use super::{Exposure, Film, FilmError, Gamut, GamutReport, Pixel, Window};
 use crate::spectrum::{Matrix3, RgbSpace, Xyz, bradford};
-use rayon::prelude::*;
 
 /// How to develop a film.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,15 +77,14 @@ impl Develop {
 impl Film {
     /// Develops the film.
     pub fn develop(&self, develop: &Develop) -> Result<Developed, FilmError> {
-        let means = || self.pixels().par_iter().map(Pixel::mean);
-        let xyz: Vec<_> = means().map(to_f32).collect();
-        let ev = develop.exposure.ev(self.pixels().iter().map(|pixel| pixel.mean()[1]))?;
+        let means: Vec<Xyz> = self.pixels().iter().map(Pixel::mean).collect();
+        let ev = develop.exposure.ev(means.iter().map(|xyz| xyz[1]))?;
         let matrix = develop.matrix(ev)?;
-        let rgb: Vec<_> = means().map(|xyz| to_f32(matrix.apply(xyz))).collect();
+        let rgb: Vec<_> = means.iter().map(|xyz| to_f32(matrix.apply(*xyz))).collect();
         Ok(Developed {
             image: self.image(),
             window: self.window(),
-            xyz,
+            xyz: means.into_iter().map(to_f32).collect(),
             ev,
             white: develop.normalised_white()?,
             space: develop.space,

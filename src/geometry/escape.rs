@@ -1,7 +1,8 @@
 //! Rays that leave a convex solid together, and which of them surely meet nothing any more.
 //!
 //! Wavelengths leave a gem as one ray each, most of them into the open. Whether rays miss a box is asked of all of them at once, which takes a
-//! few instructions a ray; the search for what is met takes more than a hundred even where that is nothing.
+//! few instructions a ray; the search for what is met takes more than a hundred even where that is nothing. Boxes are widened as those of
+//! trees are: what a flat shape counts as met beyond its own edge, by rounding, may be missed.
 
 use super::ray::{ShapeId, sum_abs};
 use super::{Bounds, Points, World};

@@ -36,18 +36,17 @@ pub const SHARED: usize = 32;
 pub type Point = [u32; DIMENSIONS];
 pub type Shift = [u32; SHARED];
 
-/// What is above the diagonal of the matrix U of each pair of dimensions but the first, whose U is 1: column after column, the first
-/// row's digit lowest.
+/// What is above the diagonal of the matrices U of the second pair of dimensions and those after it: column after column, the first row's
+/// digit lowest. (The first pair's is 1.)
 #[rustfmt::skip]
-const SPREAD: [u128; DIMENSIONS / 2 - 1] = [
+const SPREAD: [u128; 9] = [
     0x01e428e5fd14de59a, 0x12c6d607316b0f9d1, 0x381c4fd5f3537231d, 0x1750e028774ab76b7, 0x3be450b54a37198e7,
-    0x04648f62cfb31fc75, 0x09b5c9b5bc180da37, 0x0722891fd44c5475c, 0x2ccf588ca292b77fe, 0x09eb0ca99bab95ea7,
-    0x0817e1092c6aafef5, 0x0978a14dd2b5e114e, 0x3426df722702ca5ad, 0x1bbad8962db44a8a2, 0x11528aa322b389756,
-    0x39d7d075be5b8fef5, 0x1e2461bdd275e114e, 0x1623839116cd175dc, 0x31065d41f9cedfc91, 0x1f6280a3c2b389756,
-    0x256705387def8fef5, 0x1530809075a3ed977, 0x18eef76192ccf75dc, 0x16ad2b3ef33c4a8a2, 0x1ad21e8a646bb5ea7,
-    0x04d9cf387def8fef5, 0x39e171a97275e114e, 0x2767a1570a3f2a5ad, 0x1d2388d6e13c4a8a2, 0x3eb38f9a646bb5ea7,
-    0x2143782f7d1fb2b0c,
+    0x04648f62cfb31fc75, 0x09b5c9b5bc180da37, 0x0722891fd44c5475c, 0x2ccf588ca292b77fe,
 ];
+
+/// Later pairs have random matrices, by these numbers: none that share their first digits with a dimension before them.
+const LATER: [u32; DIMENSIONS / 2 - 1 - SPREAD.len()] =
+    [4, 26, 11, 94, 65, 29, 80, 31, 27, 21, 18, 71, 19, 44, 15, 74, 32, 31, 65, 51, 5, 73];
 
 /// Which of the first three columns of Pascal's matrix are added to later ones, a bit each: 0 to 1; 0, 1 to 2; 0, 1, 2 to 3.
 const MIXED: [u32; 16] = [63, 40, 50, 45, 45, 50, 45, 50, 13, 0, 45, 50, 45, 50, 13, 0];
@@ -66,10 +65,13 @@ impl Net {
 
 /// What a digit of a point's number adds to its coordinate.
 fn column(dimension: usize, column: u32) -> u32 {
-    let above = match (dimension / 2).checked_sub(1) {
+    let pair = dimension / 2;
+    let above = match pair.checked_sub(1) {
         None => 0,
-        Some(pair) => (SPREAD[pair] >> (column * column.saturating_sub(1) / 2)) as u32 & ((1 << column) - 1),
+        Some(after) if after < SPREAD.len() => (SPREAD[after] >> (column * column.saturating_sub(1) / 2)) as u32,
+        Some(after) => hash(hash((pair as u32) << 5 | column) ^ LATER[after - SPREAD.len()]),
     };
+    let above = above & ((1 << column) - 1);
     let upper = above | 1 << column;
     let rows = if dimension.is_multiple_of(2) { upper } else { times_pascal(upper) };
     rows.reverse_bits()
@@ -164,6 +166,28 @@ mod tests {
                         "pair {pair}, 2^{m} points, {wide} digits of the first"
                     );
                 }
+            }
+        }
+    }
+
+    /// Whether three leading digits of two dimensions, of 2^m points, have combinations that never come.
+    fn clash(points: &[Point], one: usize, other: usize) -> bool {
+        (0..=3).any(|digits| {
+            let seen = points.iter().fold(0u8, |seen, point| {
+                let [x, y] = [(one, digits), (other, 3 - digits)].map(|(d, n)| (u64::from(point[d]) >> (32 - n)) as u8);
+                seen | 1 << (x << (3 - digits) | y)
+            });
+            seen != u8::MAX
+        })
+    }
+
+    #[test]
+    fn no_two_dimensions_know_each_other() {
+        let net = Net::new();
+        for other in 0..DIMENSIONS {
+            for one in 0..other {
+                assert!(!clash(&net.points[..1 << 10], one, other), "{one} and {other}, 1024 points");
+                assert!(other >= SHARED || !clash(&net.points[..1 << 8], one, other), "{one} and {other}, 256 points");
             }
         }
     }
