@@ -29,8 +29,18 @@ pub struct Job<'a> {
 }
 
 impl Job<'_> {
-    /// Renders and writes; writes nothing if the render was ended because it is to begin anew.
+    /// Renders and writes, on as many threads as were asked for; writes nothing if the render was ended because it is to begin anew.
     pub fn run(
+        &self,
+        outputs: &[PathBuf],
+        interrupt: &Interrupt,
+        preview: Option<&mut Preview>,
+    ) -> Result<(), SceneError> {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.args.threads()).build().map_err(SceneError::new)?;
+        pool.install(|| self.run_in_pool(outputs, interrupt, preview))
+    }
+
+    fn run_in_pool(
         &self,
         outputs: &[PathBuf],
         interrupt: &Interrupt,
@@ -51,12 +61,11 @@ impl Job<'_> {
         self.write(outputs, identity, &layers, &developed)
     }
 
-    /// Renders on a thread pool of its own, until it is done or interrupted.
+    /// Renders until it is done or interrupted.
     fn expose(&self, interrupt: &Interrupt, preview: Option<&mut Preview>) -> Result<Layers, SceneError> {
         let (scene, quiet) = (self.scene, self.args.quiet());
         let window = window(scene.settings.crop);
         let mut layers = self.plan.layers(scene, window)?;
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.args.threads()).build().map_err(SceneError::new)?;
         let progress = match self.effort.samples() {
             Some(samples) => Shown::new(window.pixel_count() * samples, quiet),
             None => Shown::open(quiet),
@@ -83,10 +92,10 @@ impl Job<'_> {
             }
         };
         match preview {
-            None => pool.install(|| expose(&mut layers)).map_err(SceneError::new)?,
+            None => expose(&mut layers).map_err(SceneError::new)?,
             Some(preview) => {
                 let mut render = |layers: &mut Layers, samples| {
-                    pool.install(|| render_layers(&recorder, layers, samples, &progress, interrupt.flag()));
+                    render_layers(&recorder, layers, samples, &progress, interrupt.flag());
                 };
                 self.expose_and_show(&mut layers, preview, &mut render, interrupt)?
             }

@@ -227,7 +227,7 @@ fn excess(targets: &[Target], bounds: &[Bound]) -> f64 {
 
 /// The width of what there is, and how it is looked at, at the exposure of what there is.
 fn viewed(layers: &Layers, develop: &Develop) -> Result<(usize, View), FilmError> {
-    let ev = develop.exposure.ev(layers.film().pixels().iter().map(|pixel| pixel.mean()[1]))?;
+    let ev = develop.exposure.ev(layers.film().luminances())?;
     Ok((layers.film().window().width as usize, View::new(ev, develop.white)))
 }
 

@@ -5,6 +5,7 @@
 
 use super::{Exposure, Film, FilmError, Gamut, GamutReport, Pixel, Window};
 use crate::spectrum::{Matrix3, RgbSpace, Xyz, bradford};
+use rayon::prelude::*;
 
 /// How to develop a film.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,16 +76,24 @@ impl Develop {
 }
 
 impl Film {
+    /// Mean Y (cd/m²) of every pixel.
+    pub fn luminances(&self) -> impl IndexedParallelIterator<Item = f64> {
+        self.pixels().par_iter().map(|pixel| pixel.mean()[1])
+    }
+
     /// Develops the film.
     pub fn develop(&self, develop: &Develop) -> Result<Developed, FilmError> {
-        let means: Vec<Xyz> = self.pixels().iter().map(Pixel::mean).collect();
-        let ev = develop.exposure.ev(means.iter().map(|xyz| xyz[1]))?;
+        let ev = develop.exposure.ev(self.luminances())?;
         let matrix = develop.matrix(ev)?;
-        let rgb: Vec<_> = means.iter().map(|xyz| to_f32(matrix.apply(*xyz))).collect();
+        let color = |pixel: &Pixel| {
+            let mean = pixel.mean();
+            (to_f32(mean), to_f32(matrix.apply(mean)))
+        };
+        let (xyz, rgb): (Vec<_>, Vec<_>) = self.pixels().par_iter().map(color).unzip();
         Ok(Developed {
             image: self.image(),
             window: self.window(),
-            xyz: means.into_iter().map(to_f32).collect(),
+            xyz,
             ev,
             white: develop.normalised_white()?,
             space: develop.space,
@@ -95,14 +104,9 @@ impl Film {
     }
 
     fn gamut_report(&self, rgb: &[[f32; 3]], develop: &Develop) -> GamutReport {
-        let mut report = GamutReport { gamut: develop.gamut, space: develop.space, ..GamutReport::default() };
-        for (pixel, rgb) in self.pixels().iter().zip(rgb) {
-            report.count(*rgb);
-            report.rejected += u64::from(pixel.rejected());
-            report.overflow += u64::from(pixel.overflowed());
-            report.unsampled += u64::from(pixel.count() == 0);
-        }
-        report
+        let nothing = || GamutReport { gamut: develop.gamut, space: develop.space, ..GamutReport::default() };
+        let each = self.pixels().par_iter().zip(rgb);
+        each.fold(nothing, |report, (pixel, rgb)| report.with(pixel, *rgb)).reduce(nothing, GamutReport::and)
     }
 }
 

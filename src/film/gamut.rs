@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::Pixel;
 use crate::spectrum::RgbSpace;
 
 /// How linear RGB gets into [0, 1] for files that cannot hold more.
@@ -45,7 +46,7 @@ fn towards_grey(rgb: [f64; 3], luminance: [f64; 3]) -> [f64; 3] {
 }
 
 /// What the development of a film met that a display cannot show, or that should not have been there.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct GamutReport {
     /// Pixels of the film.
     pub pixels: u64,
@@ -69,11 +70,31 @@ pub struct GamutReport {
 const TOLERANCE: f32 = 1e-6;
 
 impl GamutReport {
-    pub(super) fn count(&mut self, rgb: [f32; 3]) {
+    /// And this pixel, whose development is `rgb`.
+    pub(super) fn with(self, pixel: &Pixel, rgb: [f32; 3]) -> Self {
         let scale = rgb.iter().fold(1.0f32, |scale, c| scale.max(c.abs()));
-        self.pixels += 1;
-        self.above_one += u64::from(rgb.iter().any(|c| *c > 1.0 + TOLERANCE));
-        self.negative += u64::from(rgb.iter().any(|c| *c < -TOLERANCE * scale));
+        self.and(Self {
+            pixels: 1,
+            above_one: u64::from(rgb.iter().any(|c| *c > 1.0 + TOLERANCE)),
+            negative: u64::from(rgb.iter().any(|c| *c < -TOLERANCE * scale)),
+            rejected: u64::from(pixel.rejected()),
+            overflow: u64::from(pixel.overflowed()),
+            unsampled: u64::from(pixel.count() == 0),
+            ..self
+        })
+    }
+
+    /// Of both films, developed alike.
+    pub(super) fn and(self, other: Self) -> Self {
+        Self {
+            pixels: self.pixels + other.pixels,
+            above_one: self.above_one + other.above_one,
+            negative: self.negative + other.negative,
+            rejected: self.rejected + other.rejected,
+            overflow: self.overflow + other.overflow,
+            unsampled: self.unsampled + other.unsampled,
+            ..self
+        }
     }
 
     /// Whether a PNG shows every colour as it is.

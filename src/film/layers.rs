@@ -6,7 +6,7 @@
 //! for features (one more ray), 5 % for replicates, 11 % for 41 bands.
 
 use super::fixed::{sum_to_f64, sum_units};
-use super::{Features, Film, FilmError, Pixel, Replicates, Window};
+use super::{Features, Film, FilmError, Pixel, Replicates, Window, empty};
 
 /// Which layers a film is to have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -62,9 +62,9 @@ impl Layers {
         Ok(Self {
             film,
             wanted,
-            features: zeros(pixels * usize::from(wanted.features), bytes)?,
-            replicates: zeros(pixels * usize::from(wanted.replicates), bytes)?,
-            bands: zeros(pixels.saturating_mul(wanted.bands), bytes)?,
+            features: empty(pixels * usize::from(wanted.features), bytes)?,
+            replicates: empty(pixels * usize::from(wanted.replicates), bytes)?,
+            bands: empty(pixels.saturating_mul(wanted.bands), bytes)?,
         })
     }
 
@@ -122,11 +122,4 @@ impl LayersRow<'_> {
 
 fn rows<T>(values: &mut [T], width: usize) -> impl Iterator<Item = &mut [T]> {
     values.chunks_exact_mut(width.max(1))
-}
-
-fn zeros<T: Clone + Default>(count: usize, bytes: u64) -> Result<Vec<T>, FilmError> {
-    let mut values = Vec::new();
-    values.try_reserve_exact(count).map_err(|_| FilmError::TooLarge { bytes })?;
-    values.resize(count, T::default());
-    Ok(values)
 }

@@ -37,6 +37,8 @@ pub use pixel::Pixel;
 pub use replicates::{REPLICATES, Replicates};
 pub use window::Window;
 
+use rayon::prelude::*;
+
 /// The pixels of a window of an image.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Film {
@@ -53,10 +55,7 @@ impl Film {
         window.check(image)?;
         let bytes = Self::memory_bytes(window.width, window.height);
         let count = usize::try_from(window.pixel_count()).map_err(|_| FilmError::TooLarge { bytes })?;
-        let mut pixels = Vec::new();
-        pixels.try_reserve_exact(count).map_err(|_| FilmError::TooLarge { bytes })?;
-        pixels.resize(count, Pixel::default());
-        Ok(Self { image, window, pixels })
+        Ok(Self { image, window, pixels: empty(count, bytes)? })
     }
 
     /// An empty film for a whole image.
@@ -139,4 +138,13 @@ impl Film {
             other_image: other.image,
         }
     }
+}
+
+/// So many empty sums, which take `bytes` with all that is beside them. By all threads, for it is the machine's looking for memory that
+/// takes time.
+fn empty<T: Clone + Default + Send>(count: usize, bytes: u64) -> Result<Vec<T>, FilmError> {
+    let mut values = Vec::new();
+    values.try_reserve_exact(count).map_err(|_| FilmError::TooLarge { bytes })?;
+    values.par_extend(rayon::iter::repeat_n(T::default(), count));
+    Ok(values)
 }

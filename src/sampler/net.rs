@@ -122,6 +122,7 @@ fn scramble(digits: u32, dimension: u32) -> u32 {
 }
 
 /// The place of a pixel on its tile's Z-curve, whose branchings are turned by `key`.
+#[inline]
 pub fn place_in_tile([x, y]: [u32; 2], key: u32) -> u32 {
     let z = (0..DIGITS / 2).fold(0, |z, bit| z | (x >> bit & 1) << (2 * bit) | (y >> bit & 1) << (2 * bit + 1));
     // All at once, by vectors.

@@ -21,6 +21,7 @@ use crate::report::plan::Aim;
 use crate::scene::describe::SamplerName;
 use crate::scene::{Overrides, Scene, SceneError, Text};
 use clap::Args;
+use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use sweep::{LADDER, Plan, REPEATS, REPLICATES, Sweep, Swept};
@@ -234,7 +235,7 @@ impl Subject {
         let rendered = Standard::Rendered { replicates, samples: replicate_samples.into() };
         let standard = from_file.unwrap_or(rendered);
         let image = standard.image();
-        let luminances = image.iter().map(|xyz| f64::from(xyz[1]));
+        let luminances = image.par_iter().map(|xyz| f64::from(xyz[1]));
         let ev = development.exposure.ev(luminances).map_err(SceneError::new)?;
         let all = ways.iter().zip(renders).map(|(way, renders)| Measured { way: way.described(), renders });
         let (view, scale) = (View::new(ev, development.white), Scale { pixels: f64::from(width) * f64::from(height) });

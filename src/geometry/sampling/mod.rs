@@ -33,6 +33,8 @@ impl Shape {
     ///
     /// Spheres and unsheared rectangles are sampled by solid angle, other shapes by area. `None` if there is nothing to
     /// see: the reference lies in the plane of a flat shape, say.
+    // With the rectangle's and the place on the tile inlined too: 2 % less time for five metal spheres under a lamp.
+    #[inline]
     pub fn sample_toward(&self, reference: Vec3, u: [f32; 2]) -> Option<Toward> {
         let u = u.map(|x| x.clamp(0.0, BELOW_ONE));
         let toward = match self {

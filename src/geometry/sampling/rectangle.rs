@@ -106,6 +106,7 @@ impl Spherical {
     }
 }
 
+#[inline]
 pub(super) fn sample(rectangle: &Rectangle, reference: Vec3, u: [f32; 2]) -> Option<Toward> {
     let Some(spherical) = Spherical::new(rectangle, reference) else {
         let [a, b] = u.map(|x| 2.0 * x - 1.0);
