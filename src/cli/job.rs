@@ -222,7 +222,7 @@ fn report(developed: &Developed, quiet: bool) {
     if !quiet {
         show::note(format_args!("exposure {:.2} EV: white is {:.4} cd/m²", developed.ev, developed.ev.exp2()));
         if !developed.report.fits() {
-            show::note(&developed.report);
+            show::note(developed.report);
         }
     }
     developed.report.warnings().iter().for_each(show::warning);
