@@ -8,6 +8,7 @@ use crate::image::{Channel, ExrSpace, Extra, Format, Metadata, spectral};
 use crate::render::{FirstHit, Guides, Kernel, Recorder, first_hits};
 use crate::report::View;
 use crate::report::noise::Noise;
+use crate::report::parts::Parts;
 use crate::report::plan::Aim;
 use crate::scene::{Needs, Scene, SceneError};
 use crate::spectrum::{Bins, Matrix3, RgbSpace};
@@ -106,7 +107,8 @@ impl Plan {
             return Err(SceneError::new(message));
         }
         let channels = 3 * self.aovs.len() + self.wanted().bands;
-        memory::check(window, self.wanted().bytes_per_pixel(), channels)?;
+        let parts = if self.aim.is_some() { Parts::BYTES } else { 0 };
+        memory::check(window, self.wanted().bytes_per_pixel() + parts, channels)?;
         Layers::new([scene.settings.width, scene.settings.height], window, self.wanted()).map_err(SceneError::new)
     }
 

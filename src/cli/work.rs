@@ -6,6 +6,7 @@ use crate::film::{Develop, FilmError, Layers, REPLICATES};
 use crate::render::{PASS, Progress, Recorder, render_layers, render_planned};
 use crate::report::View;
 use crate::report::noise::{Bound, Noise, half};
+use crate::report::parts::Parts;
 use crate::report::plan::{Aim, LEAST, Shares};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -63,8 +64,8 @@ impl Work<'_> {
     pub fn shared(&self, layers: &mut Layers, samples: u64, aim: Aim, develop: &Develop) -> Result<(), FilmError> {
         let step = step(layers);
         let first = ((LEAST * samples as f64 / step as f64).ceil() as u64 * step).min(samples);
-        self.evenly(layers, first);
-        let shares = self.shares(layers, aim, develop, first as f64 / samples as f64)?;
+        let parts = self.in_parts(layers, (first / Parts::ENOUGH).max(1), |next| next.end <= first);
+        let shares = self.shares(layers, Some(&parts), (aim, first as f64 / samples as f64), develop)?;
         let mut mean = first as f64 / shares.largest();
         while mean < samples as f64 && !self.cancelled() {
             mean = (mean + AT_ONCE).min(samples as f64);
@@ -83,7 +84,12 @@ impl Work<'_> {
     ) -> Result<(), FilmError> {
         let (started, step) = (Instant::now(), step(layers));
         let left = || time.saturating_sub(started.elapsed());
-        let first = self.evenly_for(layers, 0, time.mul_f64(LEAST), most);
+        let in_time = |next: &Range<u64>| {
+            let wanted = started.elapsed().as_secs_f64() * next.end as f64;
+            next.start == 0 || (next.end <= most && wanted <= time.as_secs_f64() * LEAST * next.start as f64)
+        };
+        let parts = self.in_parts(layers, 1, in_time);
+        let first = parts.samples();
         if first < 2 * step {
             // Too few to tell anything of the noise; and one more may take longer than what is left.
             if left().as_secs_f64() * first as f64 >= started.elapsed().as_secs_f64() {
@@ -91,7 +97,7 @@ impl Work<'_> {
             }
             return Ok(());
         }
-        let shares = self.shares(layers, aim, develop, LEAST)?;
+        let shares = self.shares(layers, Some(&parts), (aim, LEAST), develop)?;
         let mut rate = layers.film().samples() as f64 / started.elapsed().as_secs_f64();
         let mut mean = first as f64 / shares.largest();
         while mean < most as f64 && !self.cancelled() {
@@ -110,15 +116,34 @@ impl Work<'_> {
         Ok(())
     }
 
-    /// How samples are to be shared out, by what there is.
-    fn shares(&self, layers: &Layers, aim: Aim, develop: &Develop, least: f64) -> Result<Shares, FilmError> {
-        let (width, view) = viewed(layers, develop)?;
-        let noise = match layers.replicates() {
-            [] => {
-                debug_assert!(self.recorder.draws_in_halves(), "pixels would decide for themselves");
-                Noise::of_samples(layers.film(), &view)
+    /// The first samples of every pixel, part by part, if there is to be a next one.
+    fn in_parts(&self, layers: &mut Layers, size: u64, is_wanted: impl Fn(&Range<u64>) -> bool) -> Parts {
+        let mut parts = Parts::of(size);
+        loop {
+            let next = parts.next();
+            if self.cancelled() || !is_wanted(&next) {
+                return parts;
             }
-            replicates => Noise::of_each(replicates, width, &view),
+            render_layers(self.recorder, layers, next, self.progress, self.cancel);
+            parts.look(layers.film());
+        }
+    }
+
+    /// How samples are to be shared out, as replicates of each pixel tell or parts of its samples.
+    fn shares(
+        &self,
+        layers: &Layers,
+        parts: Option<&Parts>,
+        (aim, least): (Aim, f64),
+        develop: &Develop,
+    ) -> Result<Shares, FilmError> {
+        let (width, view) = viewed(layers, develop)?;
+        let noise = match parts {
+            Some(parts) if layers.replicates().is_empty() => {
+                debug_assert!(self.recorder.draws_in_halves(), "pixels would decide for themselves");
+                Noise::of_parts(parts, width, &view)
+            }
+            _ => Noise::of_each(layers.replicates(), width, &view),
         };
         Ok(Shares::new(&noise, width, aim, least))
     }
@@ -139,7 +164,7 @@ impl Work<'_> {
         let first = (FIRST.min(most) / each).max(1) * each;
         self.evenly(layers, first);
         let width = layers.film().window().width as usize;
-        let shares = self.shares(layers, aim(targets), develop, LEAST)?;
+        let shares = self.shares(layers, None, (aim(targets), LEAST), develop)?;
         let mut means = [first as f64; 2];
         loop {
             let bounds = of_all(targets, &look(layers, develop)?);

@@ -3,7 +3,8 @@
 //! - `f0`: colours of interfaces at normal incidence, at 82° and averaged, for tables and for checking those of others.
 //! - `fresnel`: reflectance curves, and the errors of approximations.
 //! - `view`: radiances as a display shows them; `difference`: two pictures compared, replicate by replicate.
-//! - `noise`: how far a picture is from the one without noise; `plan`: which pixel gets how many samples.
+//! - `noise`: how far a picture is from the one without noise; `plan`: which pixel gets how many samples;
+//!   `parts`: what first samples tell of that.
 //! - `jackknife`: what independent replicates say of a number's error.
 //! - `comparison`: variants of a scene beside each other, as one HTML page and as JSON.
 //! - `bench`: speed against error, as text, figure, HTML page and JSON.
@@ -24,6 +25,7 @@ mod grid;
 pub mod jackknife;
 pub mod markup;
 pub mod noise;
+pub mod parts;
 pub mod plan;
 pub mod plot;
 pub mod table;

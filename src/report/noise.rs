@@ -14,7 +14,8 @@
 //! What no replicate anywhere has met, such as a caustic found by one path in a million, no spread can tell.
 
 use super::View;
-use crate::film::{Film, Pixel, Replicates};
+use super::parts::Parts;
+use crate::film::Replicates;
 use crate::spectrum::{Matrix3, Xyz, ciede2000_metric};
 use rayon::prelude::*;
 
@@ -60,11 +61,11 @@ impl Noise {
         Self::among(&all(replicates, view), width, view, |at, other| at == other)
     }
 
-    /// Of each pixel by itself alone, as if its samples were independent of each other. The net that they are of errs less, but about as
-    /// much less everywhere: enough to compare pixels by. Colour is taken to go along with brightness.
-    pub fn of_samples(film: &Film, view: &View) -> Self {
-        let pixels: Vec<_> = film.pixels().par_iter().map(|pixel| moments_of_samples(pixel, view)).collect();
-        Self::among(&pixels, film.window().width as usize, view, |at, other| at == other)
+    /// Of each pixel by itself alone, as if parts were independent of each other. Together they err less, but enough is told to compare
+    /// pixels by.
+    pub fn of_parts(parts: &Parts, width: usize, view: &View) -> Self {
+        let pixels: Vec<_> = parts.means().map(|means| moments(means, view)).collect();
+        Self::among(&pixels, width, view, |at, other| at == other)
     }
 
     /// Of the pixels of one [`half`], by themselves alone.
@@ -131,18 +132,12 @@ fn sharing() -> f64 {
 }
 
 fn all(replicates: &[Replicates], view: &View) -> Vec<(Xyz, Covariance)> {
-    replicates.par_iter().map(|pixel| moments(pixel, view)).collect()
+    replicates.par_iter().map(|pixel| moments(pixel.means(), view)).collect()
 }
 
-/// The same of samples that are taken for independent; their X, Y and Z for wholly dependent.
-fn moments_of_samples(pixel: &Pixel, view: &View) -> (Xyz, Covariance) {
-    let [x, y, z] = view.display_f64(pixel.variance_of_mean().map(f64::sqrt));
-    (view.display_f64(pixel.mean()), [x * x, y * y, z * z, x * y, y * z, z * x].map(|product| product as f32))
-}
-
-/// A pixel's mean as a display shows it, and the covariance of that mean.
-fn moments(pixel: &Replicates, view: &View) -> (Xyz, Covariance) {
-    let means: Vec<Xyz> = pixel.means().map(|mean| view.display_f64(mean)).collect();
+/// A pixel's mean as a display shows it, and the covariance of that mean, from independent means.
+fn moments(means: impl Iterator<Item = Xyz>, view: &View) -> (Xyz, Covariance) {
+    let means: Vec<Xyz> = means.map(|mean| view.display_f64(mean)).collect();
     let count = means.len() as f64;
     if means.len() < 2 {
         return ([0.0; 3], [f32::INFINITY; 6]);
