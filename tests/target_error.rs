@@ -305,18 +305,23 @@ fn the_command_says_what_was_asked_and_what_was_reached() {
         "{limited}"
     );
     assert!(limited.contains("asked for 0.001"), "{limited}");
+    let counts = || {
+        let channels = self::channels(&folder.path().join("a.exr"));
+        channels.into_iter().find(|(known, _)| known == "samples.N").map(|(_, counts)| counts)
+    };
+    // Samples of a time are shared out unless told otherwise, those of a number only if told.
     let timed = said(&["--time", "300ms"]);
     assert!(timed.contains("samples each"), "{timed}");
+    assert!(counts().is_some_and(|counts| counts.iter().any(|count| *count != counts[0])));
+    let evenly = said(&["--time", "300ms", "--adaptive=off"]);
+    assert!(evenly.contains("samples each") && counts().is_none(), "{evenly}");
     let shared = said(&["--spp", "64", "--adaptive=rmse"]);
     assert!(shared.contains("64 samples each"), "{shared}");
     let image = exr::prelude::read_all_flat_layers_from_file(folder.path().join("a.exr")).expect("an EXR file");
     let about = format!("{:?}", image.attributes) + &format!("{:?}", image.layer_data[0].attributes);
     assert!(about.contains("adaptive") && about.contains("rmse"), "{about}");
-    let channels = self::channels(&folder.path().join("a.exr"));
-    let counts = &channels.iter().find(|(known, _)| known == "samples.N").expect("how many there are").1;
+    let counts = counts().expect("how many there are");
     assert!(counts.iter().any(|count| *count > 128.0) && counts.iter().all(|count| *count >= 16.0), "{counts:?}");
-    let timed = said(&["--time", "300ms", "--adaptive"]);
-    assert!(timed.contains("samples each"), "{timed}");
     let both = said(&["--time", "200ms", "--target-error", "dE=0.001", "-q"]);
     assert!(both.contains("warning: stopped before"), "{both}");
 }
@@ -333,7 +338,7 @@ fn targets_that_make_no_sense_are_refused() {
         (&["--target-error", "dE=1", "--spp", "4"], "needs --spp 8 or more"),
         (&["--adaptive", "--target-error", "dE=1"], "--adaptive and --target-error do not go together"),
         (&["--adaptive", "--spp", "15"], "needs --spp 16 or more"),
-        (&["--adaptive=dE95"], "shared out for dE or rmse"),
+        (&["--adaptive=dE95"], "shared out for dE or rmse, or it is off"),
         (&["--adaptive", "--preview"], "--preview"),
         (&["--time", "0s"], "a time above 0"),
         (&["--time", "5 parsecs"], "such as 60s, 5m or 1h"),

@@ -120,7 +120,7 @@ impl Work<'_> {
     fn in_parts(&self, layers: &mut Layers, size: u64, is_wanted: impl Fn(&Range<u64>) -> bool) -> Parts {
         let mut parts = Parts::of(size);
         loop {
-            let next = parts.next();
+            let next = parts.next_samples();
             if self.cancelled() || !is_wanted(&next) {
                 return parts;
             }

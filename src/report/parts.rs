@@ -37,7 +37,7 @@ impl Parts {
     }
 
     /// The samples of the next part.
-    pub fn next(&mut self) -> Range<u64> {
+    pub fn next_samples(&mut self) -> Range<u64> {
         if self.looks.len() == MOST {
             self.looks = self.looks.drain(..).skip(1).step_by(2).collect();
             self.size *= 2;
@@ -76,7 +76,9 @@ mod tests {
         for parts_wanted in 1..=20 {
             let (mut film, mut parts) = (Film::full(3, 1).expect("small"), Parts::of(3));
             for _ in 0..parts_wanted {
-                parts.next().for_each(|index| film.pixels_mut().iter_mut().for_each(|pixel| pixel.add(sample(index))));
+                parts
+                    .next_samples()
+                    .for_each(|index| film.pixels_mut().iter_mut().for_each(|pixel| pixel.add(sample(index))));
                 parts.look(&film);
             }
             let size = parts.size as usize;

@@ -1,6 +1,6 @@
 //! The ways to render that are tried: the usual one, the usual one with one thing changed, and on demand with several.
 
-use super::super::effort::aim;
+use super::super::effort::{self, Sharing};
 use super::BenchArgs;
 use crate::fresnel::{FresnelModel, RgbModel, SpectralModel};
 use crate::report::bench::{self, Change};
@@ -159,7 +159,7 @@ pub fn sampler(text: &str) -> Result<SamplerName, String> {
 
 /// What an option's samples are shared out for.
 pub fn sharing(text: &str) -> Result<Option<Aim>, String> {
-    if text == "off" { Ok(None) } else { aim(text).map(Some) }
+    effort::sharing(text).map(|Sharing(aim)| aim)
 }
 
 /// Whether an option's dispersion is on.
