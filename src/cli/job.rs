@@ -29,18 +29,8 @@ pub struct Job<'a> {
 }
 
 impl Job<'_> {
-    /// Renders and writes, on as many threads as were asked for; writes nothing if the render was ended because it is to begin anew.
+    /// Renders and writes; writes nothing if the render was ended because it is to begin anew.
     pub fn run(
-        &self,
-        outputs: &[PathBuf],
-        interrupt: &Interrupt,
-        preview: Option<&mut Preview>,
-    ) -> Result<(), SceneError> {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.args.threads()).build().map_err(SceneError::new)?;
-        pool.install(|| self.run_in_pool(outputs, interrupt, preview))
-    }
-
-    fn run_in_pool(
         &self,
         outputs: &[PathBuf],
         interrupt: &Interrupt,

@@ -19,6 +19,7 @@ mod settings;
 mod show;
 mod subjects;
 mod tables;
+mod threads;
 mod watch;
 pub mod work;
 

@@ -110,10 +110,6 @@ impl RenderArgs {
         self.quiet
     }
 
-    pub fn threads(&self) -> usize {
-        self.settings.threads()
-    }
-
     pub fn options(&self) -> Options {
         Options {
             bits: self.png_bits.0,
@@ -131,6 +127,7 @@ pub fn run(args: &RenderArgs) -> Result<(), SceneError> {
             "--preview shows a render of a known length: it does not go with --target-error, --time or --adaptive",
         ));
     }
+    args.settings.threads.start()?;
     let plan = args.layers.plan(&outputs, &args.effort)?;
     let mut preview = args.preview.as_deref().map(|host| Preview::connect(host, &args.name())).transpose()?;
     let interrupt = Interrupt::listen();

@@ -1,5 +1,6 @@
 //! What a command line says of a picture in the place of the scene: size, samples, seed; and on how many threads.
 
+use super::threads::ThreadArgs;
 use crate::scene::Overrides;
 use clap::{Args, value_parser};
 
@@ -11,9 +12,8 @@ pub struct SettingsArgs {
     /// Another seed gives another noise
     #[arg(long, value_name = "S")]
     seed: Option<u64>,
-    /// Threads, which change nothing but the time [default: all cores]
-    #[arg(long, value_name = "T", value_parser = value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
+    #[command(flatten)]
+    pub threads: ThreadArgs,
     /// Width in pixels; the height follows if it is not given
     #[arg(long, value_name = "W", value_parser = value_parser!(u32).range(1..))]
     width: Option<u32>,
@@ -30,10 +30,5 @@ impl SettingsArgs {
     /// Samples a pixel, if the command line says how many.
     pub fn samples(&self) -> Option<u32> {
         self.spp
-    }
-
-    /// 0 is all cores.
-    pub fn threads(&self) -> usize {
-        usize::from(self.threads.unwrap_or(0))
     }
 }

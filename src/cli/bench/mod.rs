@@ -10,6 +10,7 @@ use super::compare::quoted;
 use super::effort::duration;
 use super::folder::{Folder, Kind};
 use super::render::lanes;
+use super::threads::ThreadArgs;
 use super::{LibraryArgs, job, memory, read_text, show};
 use crate::film::Film;
 use crate::fresnel::FresnelModel;
@@ -87,9 +88,8 @@ pub struct BenchArgs {
     /// Another seed gives another noise
     #[arg(long, value_name = "S", default_value = "0")]
     seed: u64,
-    /// Threads, which change nothing but the time [default: all cores]
-    #[arg(long, value_name = "T", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
+    #[command(flatten)]
+    threads: ThreadArgs,
     /// Print the answer, warnings and errors only
     #[arg(long, short)]
     quiet: bool,
@@ -107,39 +107,36 @@ struct Subject {
 pub fn run(args: &BenchArgs) -> Result<(), SceneError> {
     let started = Instant::now();
     let folder = Folder::claim(&args.output, KIND, args.force)?;
+    args.threads.start()?;
     let counts = counts(&args.spp)?;
     let subjects = subjects(args, &counts)?;
-    let threads = usize::from(args.threads.unwrap_or(0));
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(SceneError::new)?;
-    pool.install(|| {
-        let mut left = subjects.len() as u32;
-        let (mut scenes, mut pictures) = (Vec::new(), Vec::new());
-        for subject in subjects {
-            let time = args.time_budget.saturating_sub(started.elapsed()) / left;
-            let (scene, picture) = subject.found(args, &counts, time)?;
-            scenes.push(scene);
-            pictures.push(picture);
-            left -= 1;
-        }
-        let bench = Bench {
-            version: env!("CARGO_PKG_VERSION").into(),
-            command: command(),
-            threads: rayon::current_num_threads(),
-            clock: clock::source(),
-            time_budget_seconds: args.time_budget.as_secs_f64(),
-            seconds: started.elapsed().as_secs_f64(),
-            seed: args.seed,
-            repeats: REPEATS,
-            scenes,
-        };
-        folder.write(&files(&bench, &pictures)?)?;
-        show::answer(table::answer(&bench))?;
-        if !args.quiet {
-            let (seconds, page) = (started.elapsed().as_secs_f64(), args.output.join(HTML_FILE));
-            show::note(format_args!("{seconds:.1} s; wrote {}", page.display()));
-        }
-        Ok(())
-    })
+    let mut left = subjects.len() as u32;
+    let (mut scenes, mut pictures) = (Vec::new(), Vec::new());
+    for subject in subjects {
+        let time = args.time_budget.saturating_sub(started.elapsed()) / left;
+        let (scene, picture) = subject.found(args, &counts, time)?;
+        scenes.push(scene);
+        pictures.push(picture);
+        left -= 1;
+    }
+    let bench = Bench {
+        version: env!("CARGO_PKG_VERSION").into(),
+        command: command(),
+        threads: rayon::current_num_threads(),
+        clock: clock::source(),
+        time_budget_seconds: args.time_budget.as_secs_f64(),
+        seconds: started.elapsed().as_secs_f64(),
+        seed: args.seed,
+        repeats: REPEATS,
+        scenes,
+    };
+    folder.write(&files(&bench, &pictures)?)?;
+    show::answer(table::answer(&bench))?;
+    if !args.quiet {
+        let (seconds, page) = (started.elapsed().as_secs_f64(), args.output.join(HTML_FILE));
+        show::note(format_args!("{seconds:.1} s; wrote {}", page.display()));
+    }
+    Ok(())
 }
 
 /// The samples of every way, ascending.

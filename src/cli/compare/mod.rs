@@ -102,6 +102,7 @@ pub fn quoted(word: &str) -> String {
 
 pub fn run(args: &CompareArgs) -> Result<(), SceneError> {
     let variants = variants(args)?;
+    args.settings.threads.start()?;
     let folder = Folder::claim(&args.folder(), KIND, args.force)?;
     let text = scene_text(args.scene.as_deref(), DEFAULT_SCENE)?;
     let mut scenes = resolve_all(&variants, &text, args)?;
@@ -109,34 +110,31 @@ pub fn run(args: &CompareArgs) -> Result<(), SceneError> {
     let plan = Plan::new(settings.seed, settings.samples, args.replicates);
     check_memory(&scenes, &plan)?;
     let identities: Vec<u64> = scenes.iter().map(job::fingerprint).collect();
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(args.settings.threads()).build().map_err(SceneError::new)?;
-    pool.install(|| {
-        let interrupt = Interrupt::listen();
-        let progress = Shown::new(samples(&scenes, &plan), args.quiet);
-        let started = Instant::now();
-        let rendered = render_all(&mut scenes, &plan, &progress, &interrupt)?;
-        progress.finish();
-        if rendered[0].replicates.len() < FEWEST {
-            // Too little to tell noise from difference: as if nobody had listened.
-            std::process::exit(130);
-        }
-        if interrupt.pressed() {
-            show::warning("interrupted: comparing what there is");
-        }
-        let (rendering, started) = (started.elapsed().as_secs_f64(), Instant::now());
-        let outcome = Outcome {
-            args,
-            text: &text,
-            variants: &variants,
-            scenes: &scenes,
-            identities: &identities,
-            plan: &plan,
-            rendered: &rendered,
-        };
-        let report = outcome.compare(rendering, interrupt.pressed())?;
-        folder.write(&outcome.files(&report)?)?;
-        outcome.tell(&report, started.elapsed().as_secs_f64())
-    })
+    let interrupt = Interrupt::listen();
+    let progress = Shown::new(samples(&scenes, &plan), args.quiet);
+    let started = Instant::now();
+    let rendered = render_all(&mut scenes, &plan, &progress, &interrupt)?;
+    progress.finish();
+    if rendered[0].replicates.len() < FEWEST {
+        // Too little to tell noise from difference: as if nobody had listened.
+        std::process::exit(130);
+    }
+    if interrupt.pressed() {
+        show::warning("interrupted: comparing what there is");
+    }
+    let (rendering, started) = (started.elapsed().as_secs_f64(), Instant::now());
+    let outcome = Outcome {
+        args,
+        text: &text,
+        variants: &variants,
+        scenes: &scenes,
+        identities: &identities,
+        plan: &plan,
+        rendered: &rendered,
+    };
+    let report = outcome.compare(rendering, interrupt.pressed())?;
+    folder.write(&outcome.files(&report)?)?;
+    outcome.tell(&report, started.elapsed().as_secs_f64())
 }
 
 fn resolve_all(variants: &[Variant], text: &Text, args: &CompareArgs) -> Result<Vec<Scene>, SceneError> {
