@@ -2,6 +2,7 @@
 
 import subprocess
 import tempfile
+import time
 from pathlib import Path
 
 import numpy as np
@@ -39,6 +40,12 @@ def measure(scene, references, threads, quick, tell):
             ratios.append(one / two)
         return {"what": what, "bar": bar, "ratio": float(np.median(ratios)), "range": [min(ratios), max(ratios)]}
 
+    def machine(what, name, samples):
+        tell(f"{what}, {pairs} pairs")
+        path, options = scene(name), [*SIZE, "--threads", 1, "--spp", max(samples // share, 1)]
+        ratios = [2 * together(path, options, 1) / together(path, options, 2) for _ in range(pairs)]
+        return {"what": what, "bar": None, "ratio": float(np.median(ratios)), "range": [min(ratios), max(ratios)]}
+
     one = ["--lanes", 1]
     rows = [
         pair("exact against Schlick, metals: CPU time", "≤ 1.03", "metals", 32, SIZE, [*SIZE, "--fresnel", "schlick"]),
@@ -46,10 +53,21 @@ def measure(scene, references, threads, quick, tell):
         pair("8 lanes against 1, inside the dispersive diamond: CPU time", "≤ 1.6", "stone", 64, STONE, [*STONE, *one]),
         pair("8 lanes against 1, the diamond and what is around it: CPU time", None, "diamond", 64, STONE, [*STONE, *one]),
         faster("one thread against two, metals, 256 samples: time on the clock", "≥ 1.9", "metals", 256),
+        machine("the same of two renders at once, one thread each: what the machine has", "metals", 256),
         faster("one thread against two, mesh with its loading, 16 samples: time on the clock", "≥ 1.9", "mesh", 16),
         memory(scene("cornell"), 512 if quick else 8192, threads, tell),
     ]
     return rows + [nets(scene, name, reference, options, quick, tell) for name, options, reference in references]
+
+
+def together(path, options, count):
+    """Seconds on the clock of so many renders that begin at once and share nothing."""
+    with tempfile.TemporaryDirectory() as folder:
+        before = time.perf_counter()
+        pictures = [Path(folder) / f"{number}.exr" for number in range(count)]
+        processes = [subprocess.Popen(Spectrel(path).command(picture, *options)) for picture in pictures]
+        assert all(process.wait() == 0 for process in processes)
+        return time.perf_counter() - before
 
 
 def memory(path, samples, threads, tell):
