@@ -315,6 +315,11 @@ fn the_command_says_what_was_asked_and_what_was_reached() {
     assert!(counts().is_some_and(|counts| counts.iter().any(|count| *count != counts[0])));
     let evenly = said(&["--time", "300ms", "--adaptive=off"]);
     assert!(evenly.contains("samples each") && counts().is_none(), "{evenly}");
+    // What is reached long before the time is over.
+    for most in ["3", "8", "64"] {
+        let limited = said(&["--time", "60s", "--spp", most]);
+        assert!(limited.contains(&format!(" {most} samples each")), "{limited}");
+    }
     let shared = said(&["--spp", "64", "--adaptive=rmse"]);
     assert!(shared.contains("64 samples each"), "{shared}");
     let image = exr::prelude::read_all_flat_layers_from_file(folder.path().join("a.exr")).expect("an EXR file");

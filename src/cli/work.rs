@@ -86,7 +86,9 @@ impl Work<'_> {
         let left = || time.saturating_sub(started.elapsed());
         let in_time = |next: &Range<u64>| {
             let wanted = started.elapsed().as_secs_f64() * next.end as f64;
-            next.start == 0 || (next.end <= most && wanted <= time.as_secs_f64() * LEAST * next.start as f64)
+            let fits =
+                next.end as f64 <= most as f64 * LEAST && wanted <= time.as_secs_f64() * LEAST * next.start as f64;
+            next.start == 0 || fits
         };
         let parts = self.in_parts(layers, 1, in_time);
         let first = parts.samples();

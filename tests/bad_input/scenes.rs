@@ -45,7 +45,7 @@ fn a_model_that_does_not_apply_is_told_with_the_material() {
 #[test]
 fn a_material_of_the_scene_can_be_the_nearest() {
     let scene = "[[objects]]\nmaterial = §\"suade\"\nshape.sphere = { radius = 1 }\n[materials.suede.diffuse]\nreflectance = 0.1";
-    refused_at_mark(&scene_with(scene), &[], &["this scene has a material `suede`"]);
+    refused_at_mark(&scene_with(scene), &[], &["did you mean `suede`?"]);
 }
 
 #[test]

@@ -87,14 +87,17 @@ impl Resolver<'_> {
 
     fn unknown_material(&self, name: &Spanned<String>, error: SpectrumError) -> SceneError {
         let (asked, wanted) = (name.get_ref(), self.substitutes.material(name.get_ref()));
-        let own = nearest(wanted, self.own_materials.keys().map(String::as_str));
-        let error = match self.substitutes.is_replaced(asked) {
+        let error = match error {
+            SpectrumError::UnknownMaterial { name, suggestion } => {
+                let known = self.own_materials.keys().map(String::as_str).chain(suggestion.as_deref());
+                let suggestion = nearest(wanted, known).map(str::to_owned);
+                SpectrumError::UnknownMaterial { name, suggestion }
+            }
+            other => other,
+        };
+        match self.substitutes.is_replaced(asked) {
             true => SceneError::new(format!("--vary {asked}={wanted}: {error}")),
             false => self.text.error(&name.span(), error),
-        };
-        match own {
-            Some(own) => error.help(format!("this scene has a material `{own}`")),
-            None => error,
         }
     }
 
