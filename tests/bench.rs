@@ -410,8 +410,11 @@ fn what_changes_nothing_is_not_rendered() {
         "sobol",
         "--adaptive",
         "off",
+        "--threads",
+        "3",
     ];
     run(folder.path(), &[&args[..], &AMPLE[..]].concat());
+    assert_eq!(report(folder.path(), "out")["threads"], 3);
     let found = report(folder.path(), "out")["scenes"][0].clone();
     assert_eq!(array(&found, "variants").len(), 1);
     assert_eq!(array(&found, "left_out"), ["no dispersion: nothing in this scene has any"]);

@@ -142,6 +142,7 @@ fn the_page_needs_nothing_else_and_names_stand_for_themselves() {
 fn threads_change_nothing() {
     let numbers = |threads: &str| {
         let json = compared(&["--threads", threads, "--spp", "8"]);
+        assert_eq!(json.pointer("/settings/threads").map(Value::to_string).as_deref(), Some(threads), "{json}");
         let variants = json["variants"].as_array().expect("variants");
         variants.iter().map(|variant| variant["difference"].clone()).collect::<Vec<_>>()
     };

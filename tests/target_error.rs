@@ -13,6 +13,7 @@ use spectrel::scene::{Needs, Overrides, Scene};
 use spectrel::spectrum::{Matrix3, RgbSpace, ciede2000, lab_from_xyz};
 use std::sync::LazyLock;
 use std::sync::atomic::AtomicBool;
+use std::time::Duration;
 
 /// A rough and a smooth metal, a matt ball on a matt floor, a lamp, its light in the metals and what they throw on the floor, and sky.
 const SCENE: &str = "
@@ -177,16 +178,28 @@ fn shared(seed: u64, samples: u64, aim: Option<Aim>) -> Layers {
 }
 
 fn shared_with(seed: u64, samples: u64, aim: Option<Aim>, wanted: Wanted) -> Layers {
+    rendered(seed, wanted, |work, layers, develop| match aim {
+        Some(aim) => work.shared(layers, samples, aim, develop).expect("a picture"),
+        None => work.evenly(layers, samples),
+    })
+}
+
+/// Shared out until so many samples are reached, for there is more time than they take.
+fn shared_until(samples: u64, wanted: Wanted) -> Layers {
+    let hour = Duration::from_secs(3600);
+    rendered(5, wanted, |work, layers, develop| {
+        work.shared_for(layers, (hour, samples), Aim::MeanDe, develop).expect("a picture");
+    })
+}
+
+fn rendered(seed: u64, wanted: Wanted, render: impl Fn(&Work, &mut Layers, &Develop)) -> Layers {
     let scene = scene(SCENE, &Overrides { seed: Some(seed), ..Overrides::default() });
     let needs = Needs::of(&scene);
     let kernel = Kernel::new(&scene, &needs);
     let recorder = Recorder::new(&kernel, None, None).in_halves();
     let mut layers = Layers::new([32, 32], Window::full(32, 32), wanted).expect("small");
     let work = Work { recorder: &recorder, progress: &(), cancel: &AtomicBool::new(false), quiet: true };
-    match aim {
-        Some(aim) => work.shared(&mut layers, samples, aim, &develop(&scene)).expect("a picture"),
-        None => work.evenly(&mut layers, samples),
-    }
+    render(&work, &mut layers, &develop(&scene));
     layers
 }
 
@@ -251,6 +264,19 @@ fn as_many_samples_are_shared_out_as_were_asked_for() {
         let mean = layers.film().samples() as f64 / 1024.0;
         assert!((mean / samples as f64 - 1.0).abs() < 0.03, "{samples}: {mean}");
     }
+    // Too few for a time to be told by the first quarter of them what is noisy.
+    for samples in [1, 3, 8, 28] {
+        let layers = shared_until(samples, Wanted::default());
+        assert!(layers.film().pixels().iter().all(|pixel| u64::from(pixel.count()) == samples));
+    }
+    for samples in [64, 100, 1000] {
+        for replicates in [false, true] {
+            let layers = shared_until(samples, Wanted { replicates, ..Wanted::default() });
+            let mean = layers.film().samples() as f64 / 1024.0;
+            assert!((mean / samples as f64 - 1.0).abs() < 0.03, "{samples}: {mean}");
+            assert!(layers.film().pixels().iter().any(|pixel| u64::from(pixel.count()) > 2 * samples));
+        }
+    }
     for samples in [16, 50, 64, 300] {
         let layers = shared(5, samples, Some(Aim::Rmse));
         let counts = || layers.film().pixels().iter().map(|pixel| u64::from(pixel.count()));
@@ -310,7 +336,7 @@ fn the_command_says_what_was_asked_and_what_was_reached() {
         channels.into_iter().find(|(known, _)| known == "samples.N").map(|(_, counts)| counts)
     };
     // Samples of a time are shared out unless told otherwise, those of a number only if told.
-    let timed = said(&["--time", "300ms"]);
+    let timed = said(&["--time", "2s", "--crop", "8,8,24,24"]);
     assert!(timed.contains("samples each"), "{timed}");
     assert!(counts().is_some_and(|counts| counts.iter().any(|count| *count != counts[0])));
     let evenly = said(&["--time", "300ms", "--adaptive=off"]);
@@ -343,7 +369,8 @@ fn targets_that_make_no_sense_are_refused() {
         (&["--target-error", "dE=1", "--spp", "4"], "needs --spp 8 or more"),
         (&["--adaptive", "--target-error", "dE=1"], "--adaptive and --target-error do not go together"),
         (&["--adaptive", "--spp", "15"], "needs --spp 16 or more"),
-        (&["--adaptive=dE95"], "shared out for dE or rmse, or it is off"),
+        (&["--adaptive=dE95"], "shared out for dE or rmse, or not at all: off"),
+        (&["--adaptive=off", "--target-error", "dE=1"], "--adaptive and --target-error do not go together"),
         (&["--adaptive", "--preview"], "--preview"),
         (&["--time", "0s"], "a time above 0"),
         (&["--time", "5 parsecs"], "such as 60s, 5m or 1h"),

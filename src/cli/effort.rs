@@ -80,10 +80,11 @@ impl FromStr for Target {
     }
 }
 
+/// What an option's samples are shared out for.
 pub fn sharing(text: &str) -> Result<Sharing, String> {
     let found = Aim::ALL.into_iter().find(|aim| aim.name().eq_ignore_ascii_case(text));
     match (found, text.eq_ignore_ascii_case("off")) {
-        (None, false) => Err("samples are shared out for dE or rmse, or it is off".into()),
+        (None, false) => Err("samples are shared out for dE or rmse, or not at all: off".into()),
         _ => Ok(Sharing(found)),
     }
 }
@@ -156,7 +157,7 @@ impl EffortArgs {
                 format!("--target-error compares {least} replicates of each pixel: it needs --spp {least} or more");
             return Err(SceneError::new(message));
         }
-        if self.judges() && self.adaptive.is_some_and(|Sharing(aim)| aim.is_some()) {
+        if self.judges() && self.adaptive.is_some() {
             let error = SceneError::new("--adaptive and --target-error do not go together");
             return Err(error.help("--target-error shares samples out by itself, for what it bounds"));
         }

@@ -107,7 +107,7 @@ impl Plan {
             return Err(SceneError::new(message));
         }
         let channels = 3 * self.aovs.len() + self.wanted().bands;
-        let parts = if self.aim.is_some() { Parts::BYTES } else { 0 };
+        let parts = if self.aim.is_some() && !self.compares() { Parts::BYTES } else { 0 };
         memory::check(window, self.wanted().bytes_per_pixel() + parts, channels)?;
         Layers::new([scene.settings.width, scene.settings.height], window, self.wanted()).map_err(SceneError::new)
     }

@@ -1,4 +1,5 @@
-//! On how many threads all of a command runs, loading and writing included.
+//! On how many threads all of a command runs, loading included. (EXR files are packed and unpacked by the crate exr's own threads unless
+//! one is asked for.)
 
 use crate::scene::SceneError;
 use clap::{Args, value_parser};
@@ -11,9 +12,10 @@ pub struct ThreadArgs {
 }
 
 impl ThreadArgs {
-    /// Starts them, once in a program and before anything is done in parallel.
+    /// Starts them, before anything is done in parallel. Fails if a number is asked for and there is another one by then.
     pub fn start(&self) -> Result<(), SceneError> {
-        let threads = usize::from(self.threads.unwrap_or(0));
-        rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().map_err(SceneError::new)
+        let Some(threads) = self.threads.map(usize::from) else { return Ok(()) };
+        let started = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
+        if rayon::current_num_threads() == threads { Ok(()) } else { started.map_err(SceneError::new) }
     }
 }

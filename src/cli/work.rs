@@ -65,7 +65,11 @@ impl Work<'_> {
         let step = step(layers);
         let first = ((LEAST * samples as f64 / step as f64).ceil() as u64 * step).min(samples);
         let parts = self.in_parts(layers, (first / Parts::ENOUGH).max(1), |next| next.end <= first);
-        let shares = self.shares(layers, Some(&parts), (aim, first as f64 / samples as f64), develop)?;
+        if self.cancelled() {
+            return Ok(());
+        }
+        let shares =
+            Shares::new(&self.noise(layers, parts, develop)?, width(layers), aim, first as f64 / samples as f64);
         let mut mean = first as f64 / shares.largest();
         while mean < samples as f64 && !self.cancelled() {
             mean = (mean + AT_ONCE).min(samples as f64);
@@ -92,6 +96,9 @@ impl Work<'_> {
         };
         let parts = self.in_parts(layers, 1, in_time);
         let first = parts.samples();
+        if self.cancelled() {
+            return Ok(());
+        }
         if first < 2 * step {
             // Too few to tell anything of the noise; and one more may take longer than what is left.
             if left().as_secs_f64() * first as f64 >= started.elapsed().as_secs_f64() {
@@ -99,7 +106,7 @@ impl Work<'_> {
             }
             return Ok(());
         }
-        let shares = self.shares(layers, Some(&parts), (aim, LEAST), develop)?;
+        let shares = Shares::new(&self.noise(layers, parts, develop)?, width(layers), aim, LEAST);
         let mut rate = layers.film().samples() as f64 / started.elapsed().as_secs_f64();
         let mut mean = first as f64 / shares.largest();
         while mean < most as f64 && !self.cancelled() {
@@ -118,7 +125,7 @@ impl Work<'_> {
         Ok(())
     }
 
-    /// The first samples of every pixel, part by part, if there is to be a next one.
+    /// The first samples of every pixel, part by part as long as a next one is wanted.
     fn in_parts(&self, layers: &mut Layers, size: u64, is_wanted: impl Fn(&Range<u64>) -> bool) -> Parts {
         let mut parts = Parts::of(size);
         loop {
@@ -127,27 +134,21 @@ impl Work<'_> {
                 return parts;
             }
             render_layers(self.recorder, layers, next, self.progress, self.cancel);
-            parts.look(layers.film());
+            // Replicates tell more by themselves.
+            parts.look(if layers.replicates().is_empty() { layers.film().pixels() } else { &[] });
         }
     }
 
-    /// How samples are to be shared out, as replicates of each pixel tell or parts of its samples.
-    fn shares(
-        &self,
-        layers: &Layers,
-        parts: Option<&Parts>,
-        (aim, least): (Aim, f64),
-        develop: &Develop,
-    ) -> Result<Shares, FilmError> {
+    /// How noisy each pixel is by itself.
+    fn noise(&self, layers: &Layers, parts: Parts, develop: &Develop) -> Result<Noise, FilmError> {
         let (width, view) = viewed(layers, develop)?;
-        let noise = match parts {
-            Some(parts) if layers.replicates().is_empty() => {
+        Ok(match layers.replicates() {
+            [] => {
                 debug_assert!(self.recorder.draws_in_halves(), "pixels would decide for themselves");
-                Noise::of_parts(parts, width, &view)
+                Noise::of_parts(&parts, width, &view)
             }
-            _ => Noise::of_each(layers.replicates(), width, &view),
-        };
-        Ok(Shares::new(&noise, width, aim, least))
+            replicates => Noise::of_each(replicates, width, &view),
+        })
     }
 
     fn go_on(&self, layers: &mut Layers, plan: &[Range<u64>]) {
@@ -165,8 +166,8 @@ impl Work<'_> {
         let each = REPLICATES as u64;
         let first = (FIRST.min(most) / each).max(1) * each;
         self.evenly(layers, first);
-        let width = layers.film().window().width as usize;
-        let shares = self.shares(layers, None, (aim(targets), LEAST), develop)?;
+        let (width, view) = viewed(layers, develop)?;
+        let shares = Shares::new(&Noise::of_each(layers.replicates(), width, &view), width, aim(targets), LEAST);
         let mut means = [first as f64; 2];
         loop {
             let bounds = of_all(targets, &look(layers, develop)?);
@@ -252,10 +253,14 @@ fn excess(targets: &[Target], bounds: &[Bound]) -> f64 {
     targets.iter().zip(bounds).map(|(target, bound)| bound.promised / target.bound).fold(0.0, f64::max)
 }
 
+fn width(layers: &Layers) -> usize {
+    layers.film().window().width as usize
+}
+
 /// The width of what there is, and how it is looked at, at the exposure of what there is.
 fn viewed(layers: &Layers, develop: &Develop) -> Result<(usize, View), FilmError> {
     let ev = develop.exposure.ev(layers.film().luminances())?;
-    Ok((layers.film().window().width as usize, View::new(ev, develop.white)))
+    Ok((width(layers), View::new(ev, develop.white)))
 }
 
 fn look(layers: &Layers, develop: &Develop) -> Result<Noise, FilmError> {

@@ -118,7 +118,9 @@ impl Attributes {
         let channels = AnyChannels::sort(channels.into_iter().collect());
         let image = Image::new(self.image, Layer::new(self.size, self.layer, ENCODING, channels));
         let mut bytes = Cursor::new(Vec::new());
-        image.write().to_buffered(&mut bytes).map_err(|e| failed(&e.to_string()))?;
+        // The library has threads of its own, one for each core.
+        let write = if rayon::current_num_threads() == 1 { image.write().non_parallel() } else { image.write() };
+        write.to_buffered(&mut bytes).map_err(|e| failed(&e.to_string()))?;
         let mut bytes = bytes.into_inner();
         sort_attributes(&mut bytes).ok_or_else(|| failed("the header is malformed"))?;
         Ok(bytes)

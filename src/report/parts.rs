@@ -4,7 +4,7 @@
 //! samples scatter in both alike, so that smooth places would seem noisier than they are: sharing samples out by that left 2 to 10 %
 //! more MSE on metals, a diamond and a ring. (Two parts tell less, eight no more.)
 
-use crate::film::Film;
+use crate::film::Pixel;
 use crate::spectrum::Xyz;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -37,20 +37,25 @@ impl Parts {
     }
 
     /// The samples of the next part.
-    pub fn next_samples(&mut self) -> Range<u64> {
-        if self.looks.len() == MOST {
+    pub fn next_samples(&self) -> Range<u64> {
+        let size = if self.is_full() { 2 * self.size } else { self.size };
+        self.samples()..self.samples() + size
+    }
+
+    fn is_full(&self) -> bool {
+        self.looks.len() == MOST
+    }
+
+    /// After the next part.
+    pub fn look(&mut self, pixels: &[Pixel]) {
+        if self.is_full() {
             self.looks = self.looks.drain(..).skip(1).step_by(2).collect();
             self.size *= 2;
         }
-        self.samples()..self.samples() + self.size
+        self.looks.push(pixels.par_iter().map(|pixel| pixel.mean().map(|c| c as f32)).collect());
     }
 
-    /// After another part.
-    pub fn look(&mut self, film: &Film) {
-        self.looks.push(film.pixels().par_iter().map(|pixel| pixel.mean().map(|c| c as f32)).collect());
-    }
-
-    /// The mean of each part, by pixel.
+    /// The mean of each part, by pixel; something near it where samples were rejected.
     pub fn means(&self) -> impl IndexedParallelIterator<Item = impl Iterator<Item = Xyz>> {
         let pixels = self.looks.first().map_or(0, Vec::len);
         (0..pixels).into_par_iter().map(move |at| {
@@ -74,17 +79,17 @@ mod tests {
     fn every_part_has_the_mean_of_its_samples_though_pairs_are_joined() {
         let sample = |index: u64| [0.5 + index as f32, 7.0, libm::sqrtf(index as f32)];
         for parts_wanted in 1..=20 {
-            let (mut film, mut parts) = (Film::full(3, 1).expect("small"), Parts::of(3));
+            let (mut pixels, mut parts) = ([Pixel::default(); 3], Parts::of(3));
             for _ in 0..parts_wanted {
-                parts
-                    .next_samples()
-                    .for_each(|index| film.pixels_mut().iter_mut().for_each(|pixel| pixel.add(sample(index))));
-                parts.look(&film);
+                parts.next_samples().for_each(|index| pixels.iter_mut().for_each(|pixel| pixel.add(sample(index))));
+                parts.look(&pixels);
             }
             let size = parts.size as usize;
-            assert_eq!(parts.samples(), u64::from(film.pixels()[2].count()));
+            assert_eq!(parts.samples(), u64::from(pixels[2].count()));
             assert!(parts.looks.len() <= MOST && (parts_wanted < 4 || parts.looks.len() >= 4), "{parts_wanted}");
-            for means in parts.means().map(|means| means.collect::<Vec<Xyz>>()).collect::<Vec<_>>() {
+            let all: Vec<_> = parts.means().map(|means| means.collect::<Vec<Xyz>>()).collect();
+            assert_eq!(all.iter().map(Vec::len).collect::<Vec<_>>(), [parts.looks.len(); 3]);
+            for means in all {
                 for (part, mean) in means.into_iter().enumerate() {
                     let of = (part * size..(part + 1) * size).map(|index| sample(index as u64));
                     let sums = of.fold([0.0; 3], |sum, xyz| std::array::from_fn(|c| sum[c] + f64::from(xyz[c])));

@@ -9,7 +9,8 @@
 //! it is missed for good. Here σₚ is that of the pixels around it that lie in the other half of the picture, the other fields of a
 //! chessboard ([`half`]), and of the first samples alone ([`super::parts`]). Halves draw independent numbers (`render::Recorder::in_halves`; replicates do
 //! anyway), and each is shared out by itself, so that the number of a pixel's samples depends on nothing that its half has drawn: its
-//! mean is what it is without any plan (`tests/target_error.rs`). Only the exposure by which ΔE is seen may be that of the whole picture.
+//! mean is what it is without any plan (`tests/target_error.rs`). Only the exposure by which ΔE is seen may be that of the whole picture, and where
+//! time is the limit, how many samples there are in all.
 //! When to go on is decided for either half by the noise of the other ([`super::noise`]), for the same reason: a picture that stops when
 //! it happens to look quiet is darker in the mean. That both are quiet enough together ends it.
 
@@ -112,7 +113,7 @@ fn bounded(wishes: Vec<f64>, least: f64) -> Vec<f64> {
     wishes.iter().map(share(high)).collect()
 }
 
-/// Root mean square of the pixels around one that are of the other half; those that know nothing of their error do not count.
+/// Weighted root mean square of the pixels around one that are of the other half; those that know nothing of their error do not count.
 fn around(errors: &[f64], width: usize, at: usize) -> f64 {
     let (x, y, height) = (at % width, at / width, errors.len() / width);
     let (mut sum, mut count) = (0.0, 0.0);

@@ -5,6 +5,7 @@ use super::error::{Fault, room_for};
 use super::{Encoding, Raster, Samples};
 use crate::spectrum::Chromaticities;
 use exr::error::Error;
+use exr::image::read::image::ReadImage;
 use exr::meta::attribute::Chromaticities as Attribute;
 use exr::meta::header::Header;
 use exr::prelude::{ReadChannels, ReadLayers, ReadSpecificChannel, Vec2};
@@ -27,7 +28,7 @@ pub(super) fn read(file: File, beside: usize) -> Result<Raster, Fault> {
 type Chunks = exr::block::reader::Reader<BufReader<File>>;
 
 fn rgb(chunks: Chunks) -> Result<(Vec2<usize>, Samples), Fault> {
-    let image = exr::prelude::read()
+    let read = exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()
         .rgb_channels(
@@ -37,14 +38,13 @@ fn rgb(chunks: Chunks) -> Result<(Vec2<usize>, Samples), Fault> {
             },
         )
         .first_valid_layer()
-        .all_attributes()
-        .from_chunks(chunks)
-        .map_err(fault)?;
+        .all_attributes();
+    let image = as_parallel_as_we_are(read).from_chunks(chunks).map_err(fault)?;
     Ok((image.layer_data.size, Samples::Rgb(image.layer_data.channel_data.pixels.1)))
 }
 
 fn grey(chunks: Chunks) -> Result<(Vec2<usize>, Samples), Fault> {
-    let image = exr::prelude::read()
+    let read = exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()
         .specific_channels()
@@ -54,10 +54,17 @@ fn grey(chunks: Chunks) -> Result<(Vec2<usize>, Samples), Fault> {
             |(width, pixels): &mut (usize, Vec<f32>), at, (y,): (f32,)| pixels[at.1 * *width + at.0] = y,
         )
         .first_valid_layer()
-        .all_attributes()
-        .from_chunks(chunks)
-        .map_err(fault)?;
+        .all_attributes();
+    let image = as_parallel_as_we_are(read).from_chunks(chunks).map_err(fault)?;
     Ok((image.layer_data.size, Samples::Grey(image.layer_data.channel_data.pixels.1)))
+}
+
+/// The library has threads of its own, one for each core.
+fn as_parallel_as_we_are<F, L>(read: ReadImage<F, L>) -> ReadImage<F, L>
+where
+    F: FnMut(f64),
+{
+    if rayon::current_num_threads() == 1 { read.non_parallel() } else { read }
 }
 
 /// The first part that holds a picture, and whether in colour.

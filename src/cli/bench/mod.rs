@@ -106,8 +106,8 @@ struct Subject {
 
 pub fn run(args: &BenchArgs) -> Result<(), SceneError> {
     let started = Instant::now();
-    let folder = Folder::claim(&args.output, KIND, args.force)?;
     args.threads.start()?;
+    let folder = Folder::claim(&args.output, KIND, args.force)?;
     let counts = counts(&args.spp)?;
     let subjects = subjects(args, &counts)?;
     let mut left = subjects.len() as u32;

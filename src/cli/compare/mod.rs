@@ -101,8 +101,8 @@ pub fn quoted(word: &str) -> String {
 }
 
 pub fn run(args: &CompareArgs) -> Result<(), SceneError> {
-    let variants = variants(args)?;
     args.settings.threads.start()?;
+    let variants = variants(args)?;
     let folder = Folder::claim(&args.folder(), KIND, args.force)?;
     let text = scene_text(args.scene.as_deref(), DEFAULT_SCENE)?;
     let mut scenes = resolve_all(&variants, &text, args)?;
