@@ -5,7 +5,7 @@
 //! i mod R, and the picture has another noise than the one without them. So has a picture in halves, the fields of a chessboard: each draws
 //! numbers of its own, so that the samples of one may decide how many the other gets.
 
-use super::{Guides, Kernel, Progress, passes};
+use super::{Guides, Kernel, Progress, ROWS, passes};
 use crate::film::{Layers, LayersRow, REPLICATES};
 use crate::sampler::{PixelSamples, Sampler};
 use crate::spectrum::{BinShares, Bins, Nodes};
@@ -137,7 +137,7 @@ pub fn render_layers(
     let window = layers.film().window();
     let mut rows = layers.rows_mut();
     for pass in passes(samples) {
-        rows.par_iter_mut().zip(window.y0..window.y0 + window.height).for_each(|(row, y)| {
+        rows.par_iter_mut().zip(window.y0..window.y0 + window.height).with_max_len(ROWS).for_each(|(row, y)| {
             if !cancel.load(Ordering::Relaxed) {
                 render_row(recorder, row, [window.x0, y], &|_| pass.clone());
                 progress.advance(u64::from(window.width) * (pass.end - pass.start));
@@ -157,7 +157,8 @@ pub fn render_planned(
     let render_row = recorder.row_of_lanes();
     let window = layers.film().window();
     let lines = plan.chunks(window.width as usize).zip(window.y0..window.y0 + window.height);
-    layers.rows_mut().par_iter_mut().zip(lines.collect::<Vec<_>>()).for_each(|(row, (plan, y))| {
+    let mut rows = layers.rows_mut();
+    rows.par_iter_mut().zip(lines.collect::<Vec<_>>()).with_max_len(ROWS).for_each(|(row, (plan, y))| {
         if !cancel.load(Ordering::Relaxed) {
             render_row(recorder, row, [window.x0, y], &|at| plan.get(at).cloned().unwrap_or(0..0));
             progress.advance(plan.iter().map(|samples| samples.end.saturating_sub(samples.start)).sum());
