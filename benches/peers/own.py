@@ -65,7 +65,7 @@ def together(path, options, count):
     with tempfile.TemporaryDirectory() as folder:
         before = time.perf_counter()
         pictures = [Path(folder) / f"{number}.exr" for number in range(count)]
-        processes = [subprocess.Popen(Spectrel(path).command(picture, *options)) for picture in pictures]
+        processes = [subprocess.Popen(Spectrel(path).command(picture, "-q", *options)) for picture in pictures]
         assert all(process.wait() == 0 for process in processes)
         return time.perf_counter() - before
 
@@ -76,7 +76,6 @@ def memory(path, samples, threads, tell):
     tell(what)
     with tempfile.TemporaryDirectory() as folder:
         command = Spectrel(path, options=["--threads", threads]).command(Path(folder) / "p.exr", "--spp", samples)
-        command.remove("-q")
         process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
         found = {}
         for line in process.stderr:

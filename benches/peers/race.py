@@ -176,14 +176,14 @@ def turns(subject, reference):
 
 
 def raw_turns(subject):
-    """By renderer: CPU s and wall s of each render of the large picture."""
+    """By renderer: CPU s, wall s and wall s of rendering alone, of each render of the large picture."""
     contestants = subject.contestants(True)
     raw = {who: [] for who in contestants}
     for turn in range(subject.options.raw_repeats):
         tell(f"raw rate, turn {turn + 1} of {subject.options.raw_repeats}")
         for who, render in contestants.items():
             made = render(results.RAW_SAMPLES, 1000 + 1000 * turn)
-            raw[who].append([made.cpu, made.wall])
+            raw[who].append([made.cpu, made.wall, made.alone])
     return raw
 
 

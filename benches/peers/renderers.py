@@ -1,6 +1,7 @@
 """Both renderers behind the same call: a picture of XYZ in cd/m² from a scene, a number of samples and a seed."""
 
 import os
+import re
 import resource
 import subprocess
 import tempfile
@@ -27,6 +28,8 @@ class Render:
     # Seconds of user and system time of all threads, and on the clock: of spectrel's whole process, of Mitsuba's render alone.
     cpu: float
     wall: float
+    # Seconds on the clock of the render alone; of spectrel as it says itself, without loading, development and files.
+    alone: float
 
 
 # Below so many samples a pixel there is nothing to share out.
@@ -41,7 +44,7 @@ class Spectrel:
         self.options = [*(["--library", library] if library else []), *options]
 
     def command(self, output, *more):
-        return [str(word) for word in [SPECTREL, "render", self.path, "--exr-xyz", "-q", "-o", output, *self.options, *more]]
+        return [str(word) for word in [SPECTREL, "render", self.path, "--exr-xyz", "-o", output, *self.options, *more]]
 
     def render(self, samples, seed, *more):
         with tempfile.TemporaryDirectory() as folder:
@@ -49,13 +52,21 @@ class Spectrel:
             shared = ["--adaptive=rmse"] if self.adaptive and samples >= LEAST_SHARED else []
             command = self.command(output, "--spp", samples, "--seed", seed, *shared, *more)
             before = children(), time.perf_counter()
-            subprocess.run(command, check=True)
+            run = subprocess.run(command, stderr=subprocess.PIPE, text=True)
             cpu, wall = children() - before[0], time.perf_counter() - before[1]
-            return Render(color(mi.Bitmap(str(output))), cpu, wall)
+            if run.returncode:
+                raise SystemExit(run.stderr)
+            return Render(color(mi.Bitmap(str(output))), cpu, wall, alone(run.stderr))
 
     def loading(self, *more):
         """One sample of one pixel: what is not rendering."""
         return self.render(1, 0, "--crop", "0,0,1,1", *more)
+
+
+def alone(said):
+    """Seconds of a render, from the line that says its size, samples and rate."""
+    width, height, samples, rate = re.search(r"(\d+) × (\d+) pixels, (\d+) samples each: .* s, ([\d.]+) M samples/s", said).groups()
+    return int(width) * int(height) * int(samples) / max(float(rate) * 1e6, 1.0)
 
 
 def color(bitmap):
@@ -75,7 +86,7 @@ class Mitsuba:
         before = time.process_time(), time.perf_counter()
         picture = np.array(mi.render(self.scene, sensor=view, spp=samples, seed=seed), dtype=np.float64)
         cpu, wall = time.process_time() - before[0], time.perf_counter() - before[1]
-        return Render(picture * TO_CANDELA, cpu, wall)
+        return Render(picture * TO_CANDELA, cpu, wall, wall)
 
 
 def observer():

@@ -30,9 +30,9 @@ def ours(row):
 
 
 def rates(result, row):
-    """M samples a second by CPU time and by the clock; of spectrel without loading, as of Mitsuba."""
+    """M samples a second by CPU time and by the clock, of spectrel without loading, as of Mitsuba; and of rendering alone."""
     samples = result["large"][0] * result["large"][1] * RAW_SAMPLES
-    less = result["loading"] if ours(row) else [0, 0]
+    less = [*result["loading"], 0] if ours(row) else [0, 0, 0]
     return [samples / (seconds - loading) / 1e6 for seconds, loading in zip(row["raw"], less)]
 
 
@@ -43,7 +43,7 @@ def short(value):
 def table(result):
     if result["scene"] == "own":
         return own(result)
-    heads = ["renderer", "M samples/s by CPU", "by the clock"]
+    heads = ["renderer", "M samples/s by CPU", "by the clock", "rendering alone"]
     heads += [f"{what} at {n}" for what in ("CPU s", "MSE", "relMSE", "1/(MSE × CPU s)") for n in SHOWN]
     heads += [f"CPU s to relMSE {TARGET}"]
     lines = ["| " + " | ".join(heads) + " |", "|---" + "|--:" * (len(heads) - 1) + "|"]
@@ -128,10 +128,11 @@ def efficiency(result, who, title, bar, aim, samples):
 def raw(result, who, title, bar):
     """Held to the bar without loading, which is not in the peer's time either."""
     rows = {row["who"]: row for row in result["rows"]}
+    quotients = [a / b for a, b in zip(rates(result, rows[who]), rates(result, rows[BEST_PEER]))]
     for i, by in enumerate(["CPU time", "the clock"]):
-        bare = rates(result, rows[who])[i] / rates(result, rows[BEST_PEER])[i]
         whole = rows[BEST_PEER]["raw"][i] / rows[who]["raw"][i]
-        yield cells(f"{title}: raw rate by {by}", bar, None, f"{whole:.2f} ×", f"{bare:.2f} ×{mark(bare, bar)}")
+        yield cells(f"{title}: raw rate by {by}", bar, None, f"{whole:.2f} ×", f"{quotients[i]:.2f} ×{mark(quotients[i], bar)}")
+    yield cells(f"{title}: raw rate by the clock, rendering alone", bar, None, "–", f"{quotients[2]:.2f} ×{mark(quotients[2], bar)}")
 
 
 def to_target(result, who, title):
@@ -157,7 +158,8 @@ several renders with seeds of their own; ± is one standard error of that mean.
   own noise is subtracted. That of the dispersive diamond is spectrel's alone, 16,384 samples.
 - CPU seconds are user and system time of all threads: of spectrel's whole process, with loading the scene and writing the picture; of
   Mitsuba's render alone, without loading and, by an earlier render of the same kind, without compiling. Raw rates are without
-  loading for both.
+  loading for both; "rendering alone" is what spectrel says of its render, without the development and the file that Mitsuba does not
+  write either.
 - "Adaptive" is `--adaptive=rmse`: as many samples in the mean, of which noisy places get more after the first quarter. Mitsuba
   gives every pixel as many.
 - Mitsuba's `multijitter` is its best sampler here, `llvm_ad_spectral` its fastest variant (with libLLVM 19).

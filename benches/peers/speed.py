@@ -21,7 +21,7 @@ from environment import WORK
 # Of pictures: about 128² and 512² pixels, in the scene's shape.
 SMALL, LARGE = 128**2, 512**2
 # Renders of a renderer and count, with seeds of their own; the raw rate is the median of fewer.
-REPEATS, RAW_REPEATS = 5, 3
+REPEATS, RAW_REPEATS = 5, 7
 SCENES = ["metals", "diamond", "cornell", "mesh"]
 OWN = "own"
 

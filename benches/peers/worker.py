@@ -87,7 +87,7 @@ def main(variant, path, views, threads, output):
             compiled.add(key)
         render = renderer.render(**asked)
         np.save(output, render.picture)
-        answer(cpu=render.cpu, wall=render.wall)
+        answer(cpu=render.cpu, wall=render.wall, alone=render.alone)
 
 
 if __name__ == "__main__":

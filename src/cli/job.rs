@@ -55,12 +55,12 @@ impl Job<'_> {
     fn expose(&self, interrupt: &Interrupt, preview: Option<&mut Preview>) -> Result<Layers, SceneError> {
         let (scene, quiet) = (self.scene, self.args.quiet());
         let window = window(scene.settings.crop);
+        let started = Instant::now();
         let mut layers = self.plan.layers(scene, window)?;
         let progress = match self.effort.samples() {
             Some(samples) => Shown::new(window.pixel_count() * samples, quiet),
             None => Shown::open(quiet),
         };
-        let started = Instant::now();
         let needs = Needs::of(scene);
         let kernel = Kernel::new(scene, &needs);
         let recorder = self.plan.recorder(&kernel, scene, &needs);
