@@ -136,7 +136,7 @@ pub fn render_layers(
     let render_row = recorder.row_of_lanes();
     let window = layers.film().window();
     let mut rows = layers.rows_mut();
-    for pass in passes(samples) {
+    for pass in passes(samples, cancel) {
         rows.par_iter_mut().zip(window.y0..window.y0 + window.height).with_max_len(ROWS).for_each(|(row, y)| {
             if !cancel.load(Ordering::Relaxed) {
                 render_row(recorder, row, [window.x0, y], &|_| pass.clone());

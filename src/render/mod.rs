@@ -162,7 +162,7 @@ pub fn render(kernel: &Kernel, film: &mut Film, samples: Range<u64>, progress: &
         _ => Kernel::row::<8>,
     };
     let window = film.window();
-    for pass in passes(samples) {
+    for pass in passes(samples, cancel) {
         let rows = film.pixels_mut().par_chunks_mut(window.width as usize);
         rows.zip(window.y0..window.y0 + window.height).with_max_len(ROWS).for_each(|(row, y)| {
             if !cancel.load(Ordering::Relaxed) {
@@ -173,6 +173,8 @@ pub fn render(kernel: &Kernel, film: &mut Film, samples: Range<u64>, progress: &
     }
 }
 
-fn passes(samples: Range<u64>) -> impl Iterator<Item = Range<u64>> {
-    samples.clone().step_by(PASS as usize).map(move |first| first..(first + u64::from(PASS)).min(samples.end))
+/// Until `cancel` is set.
+fn passes(samples: Range<u64>, cancel: &AtomicBool) -> impl Iterator<Item = Range<u64>> {
+    let pass = move |first: u64| first..(first + u64::from(PASS)).min(samples.end);
+    samples.clone().step_by(PASS as usize).take_while(|_| !cancel.load(Ordering::Relaxed)).map(pass)
 }
