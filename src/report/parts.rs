@@ -1,8 +1,8 @@
 //! The first samples of a picture in equal parts: how far apart their means lie tells where it is noisy.
 //!
 //! A part of a net is a net by itself. Where pixels are smooth, parts agree; at edges, and where light is found by luck, they do not. Single
-//! samples scatter in both alike, so that smooth places would seem noisier than they are: sharing samples out by that left 2 to 10 %
-//! more MSE on metals, a diamond and a ring. (Two parts tell less, eight no more.)
+//! samples scatter in both alike, so that smooth places would seem noisier than they are: sharing samples out by that left 1 to 7 %
+//! more MSE on metals, a diamond and a ring for rmse, and 1 % less to 11 % more for ΔE. (Eight parts did no better than four.)
 
 use crate::film::Pixel;
 use crate::spectrum::Xyz;
