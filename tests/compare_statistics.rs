@@ -5,6 +5,7 @@
 mod random;
 
 use random::Random;
+use spectrel::report::bound::Unseen;
 use spectrel::report::difference::{Image, compare};
 use spectrel::report::{Difference, Verdict, View};
 use spectrel::spectrum::RgbSpace;
@@ -49,7 +50,7 @@ fn share(found: &[Difference], holds: impl Fn(&Difference) -> bool) -> f64 {
 fn noise_alone_is_no_difference() {
     let found = trials(200, |random| {
         let (a, b) = (noisy(&truth(1.0), 0.1, random), noisy(&truth(1.0), 0.1, random));
-        compare(&view(), &a, &b).difference
+        compare(&view(), &a, &b, &Unseen::NOTHING).difference
     });
     // At most 3.5 % nominally, 2.5 % by colour and 1 % by energy; of 200 trials 5 % is more than a standard deviation above that.
     let alarms = share(&found, |difference| difference.verdict != Verdict::Indistinguishable);
@@ -76,7 +77,7 @@ fn rare_strong_noise_is_no_difference() {
                 *xyz = xyz.map(|c| c * if random.unit() < 0.5 { 0.5 } else { 1.5 });
             }
         }
-        compare(&view(), &a, &b).difference
+        compare(&view(), &a, &b, &Unseen::NOTHING).difference
     });
     let alarms = share(&found, |difference| difference.verdict != Verdict::Indistinguishable);
     assert!(alarms <= 0.05, "{alarms}");
@@ -87,11 +88,11 @@ fn a_small_difference_is_found_with_the_same_random_numbers_only() {
     let change = 1.005;
     let paired = trials(40, |random| {
         let a = noisy(&truth(1.0), 0.3, random);
-        compare(&view(), &a, &scaled(&a, change as f32)).difference
+        compare(&view(), &a, &scaled(&a, change as f32), &Unseen::NOTHING).difference
     });
     let independent = trials(40, |random| {
         let (a, b) = (noisy(&truth(1.0), 0.3, random), noisy(&truth(change), 0.3, random));
-        compare(&view(), &a, &b).difference
+        compare(&view(), &a, &b, &Unseen::NOTHING).difference
     });
     let differs = |difference: &Difference| difference.verdict == Verdict::Different;
     assert_eq!(share(&paired, differs), 1.0);
@@ -111,11 +112,11 @@ fn holds([low, high]: [f64; 2], value: f64) -> bool {
 fn intervals_hold_the_truth() {
     let change = 1.1;
     let still = |truth: &[[f64; 3]]| vec![truth.iter().map(|xyz| xyz.map(|c| c as f32)).collect(); REPLICATES];
-    let exact = compare(&view(), &still(&truth(1.0)), &still(&truth(change))).difference;
+    let exact = compare(&view(), &still(&truth(1.0)), &still(&truth(change)), &Unseen::NOTHING).difference;
     for noise in [0.005, 0.02, 0.04, 0.1] {
         let found = trials(100, |random| {
             let (a, b) = (noisy(&truth(1.0), noise, random), noisy(&truth(change), noise, random));
-            compare(&view(), &a, &b).difference
+            compare(&view(), &a, &b, &Unseen::NOTHING).difference
         });
         let energy = share(&found, |found| holds(found.energy.interval_95, exact.energy.value));
         let truth = exact.delta_e2000.mean;
@@ -134,7 +135,7 @@ fn a_difference_that_shows_in_the_sum_only_is_one() {
     let large = |change: f64| -> Vec<[f64; 3]> { (0..25).flat_map(|_| truth(change)).collect() };
     let found = trials(20, |random| {
         let (a, b) = (noisy(&large(1.0), 0.2, random), noisy(&large(1.005), 0.2, random));
-        compare(&view(), &a, &b).difference
+        compare(&view(), &a, &b, &Unseen::NOTHING).difference
     });
     assert!(share(&found, |difference| difference.delta_e2000.interval_95[0] == 0.0) > 0.8, "the case is not met");
     assert!(share(&found, |difference| difference.verdict == Verdict::Different) > 0.8);
@@ -151,7 +152,7 @@ fn rounding_is_no_difference() {
                 *xyz = xyz.map(|c| c.next_down());
             }
         }
-        compare(&view(), &a, &b).difference
+        compare(&view(), &a, &b, &Unseen::NOTHING).difference
     });
     assert!(share(&found, |difference| difference.energy.interval_95[1] < 0.0) > 0.5, "the case is not met");
     assert_eq!(share(&found, |difference| difference.verdict == Verdict::Indistinguishable), 1.0);

@@ -5,6 +5,7 @@ mod common;
 use common::command::{folder, refused, run};
 use common::{film, scene};
 use spectrel::cli::effort::{Reached, Target};
+use spectrel::cli::promise::Goal;
 use spectrel::cli::work::Work;
 use spectrel::film::{Develop, Exposure, Film, Gamut, Layers, Replicates, Wanted, Window};
 use spectrel::render::{Kernel, Recorder, render_layers, render_planned};
@@ -78,7 +79,8 @@ fn stopped(seed: u64, targets: &str, most: u64) -> (Vec<[f64; 3]>, Reached) {
     let mut layers = Layers::new([32, 32], Window::full(32, 32), wanted).expect("small");
     let targets: Vec<Target> = targets.split(',').map(|target| target.parse().expect("a target")).collect();
     let work = Work { recorder: &recorder, progress: &(), cancel: &AtomicBool::new(false), quiet: true };
-    let reached = work.for_error(&mut layers, (&targets, None, most), &develop(&scene)).expect("a picture");
+    let goal = Goal { targets: &targets, time: None, most, chance: &needs.chance };
+    let reached = work.for_error(&mut layers, &goal, &develop(&scene)).expect("a picture");
     (developed(layers.film(), &scene), reached)
 }
 

@@ -59,6 +59,9 @@ impl Inverse {
 }
 
 impl Filter {
+    /// No filter reaches further from a pixel's centre, in pixels.
+    pub const REACH: f32 = RADIUS as f32;
+
     pub fn blackman_harris() -> Self {
         Self::BlackmanHarris(Inverse::new())
     }

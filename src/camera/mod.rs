@@ -6,7 +6,7 @@ mod filter;
 pub use aperture::Aperture;
 pub use filter::Filter;
 
-use crate::geometry::Ray;
+use crate::geometry::{Bounds, Ray};
 use glam::{DVec3, Vec3};
 use thiserror::Error;
 
@@ -140,10 +140,62 @@ impl Camera {
         }
     }
 
+    /// Whether a ray of the picture, or of the reach of its filter around it, may meet something in a box; false only if surely none does.
+    pub fn may_see(&self, bounds: &Bounds) -> bool {
+        let corners = bounds.corners().map(|corner| self.seen(corner));
+        let beyond = |outside: &dyn Fn(&[f64; 3]) -> bool| corners.iter().all(outside);
+        let [x, y] = self.half_extent();
+        let sides = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]];
+        let aside = |[a, b]: [f64; 2]| {
+            beyond(&|[across, down, ahead]| {
+                let limit = (a * x + b * y).abs() * if self.parallel { 1.0 } else { ahead.max(0.0) };
+                a * across + b * down > limit + self.blur(*ahead)
+            })
+        };
+        !beyond(&|[_, _, ahead]| *ahead < 0.0) && !sides.into_iter().any(aside)
+    }
+
+    /// The same for what is infinitely far in a direction, up to an angle from it in radians.
+    pub fn may_see_toward(&self, direction: Vec3, half_angle: f64) -> bool {
+        let own = if self.parallel { 0.0 } else { self.half_angle() };
+        angle(direction.as_dvec3(), self.forward.as_dvec3()) <= own + half_angle
+    }
+
+    /// Where a point is, in scene units to the right of the camera, below and in front of it.
+    fn seen(&self, point: Vec3) -> [f64; 3] {
+        let to = (point - self.position).as_dvec3();
+        [self.right, self.down, self.forward].map(|axis| to.dot(axis.as_dvec3()))
+    }
+
+    /// How far the opening smears a point at a distance along the view, scene units.
+    fn blur(&self, ahead: f64) -> f64 {
+        self.aperture.map_or(0.0, |aperture| {
+            f64::from(aperture.radius) * (1.0 - ahead / f64::from(aperture.focus_distance)).abs()
+        })
+    }
+
+    /// Half of the picture's width and height at distance 1, with the reach of the filter around it.
+    fn half_extent(&self) -> [f64; 2] {
+        let corner = self.corner - (self.step_x + self.step_y) * Filter::REACH;
+        [self.right, self.down].map(|axis| f64::from(corner.dot(axis).abs()))
+    }
+
+    /// Largest angle of a ray to the direction of view, radians.
+    fn half_angle(&self) -> f64 {
+        let [x, y] = self.half_extent();
+        let slant = self.aperture.map_or(0.0, |aperture| f64::from(aperture.radius / aperture.focus_distance));
+        libm::atan(libm::hypot(x, y)) + libm::atan(slant)
+    }
+
     /// How far in front of the camera a point is, along the direction of view.
     pub fn depth(&self, point: Vec3) -> f32 {
         (point - self.position).dot(self.forward)
     }
+}
+
+/// Between unit vectors, radians.
+fn angle(a: DVec3, b: DVec3) -> f64 {
+    2.0 * libm::atan2((a - b).length(), (a + b).length())
 }
 
 #[cfg(test)]

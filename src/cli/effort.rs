@@ -1,7 +1,9 @@
 //! How long a render goes on, and where: for so many samples, for so long, or until its error is small enough.
 
 use crate::film::REPLICATES;
-use crate::report::noise::{Bound, Noise};
+use crate::report::View;
+use crate::report::bound::{Bound, Unseen};
+use crate::report::noise::Noise;
 use crate::report::plan::Aim;
 use crate::scene::SceneError;
 use clap::Args;
@@ -56,12 +58,21 @@ impl fmt::Display for Measure {
 }
 
 impl Measure {
-    /// What it is at most in a picture of this noise.
-    pub fn of(self, noise: &Noise) -> Bound {
+    /// What it is at most in a picture of this noise, in which light may be missing.
+    pub fn of(self, noise: &Noise, view: &View, unseen: &Unseen) -> Bound {
         match self {
-            Self::MeanDe => noise.mean_de(),
-            Self::De95 => noise.de95(),
-            Self::Rmse => noise.rmse(),
+            Self::MeanDe => Bound::of_mean_de(noise, view, unseen),
+            Self::De95 => Bound::of_de95(noise, view, unseen),
+            Self::Rmse => Bound::of_rmse(noise, view, unseen),
+        }
+    }
+
+    /// Of two halves of a picture together.
+    pub fn of_both(self, [a, b]: [f64; 2]) -> f64 {
+        match self {
+            Self::MeanDe => 0.5 * (a + b),
+            Self::De95 => a.max(b),
+            Self::Rmse => (0.5 * (a * a + b * b)).sqrt(),
         }
     }
 }
@@ -194,18 +205,38 @@ pub struct Reached {
     pub bounds: Vec<Bound>,
     pub mean_samples: f64,
     pub met: bool,
+    /// By which way light may be there that was not found, for people; empty if by none.
+    pub way: String,
+}
+
+impl Reached {
+    /// Why it was not met, where light that may be missing has more than half of a promise that was not kept.
+    pub fn reason(&self) -> Option<String> {
+        let missing = |(target, bound): &(&Target, &Bound)| {
+            bound.promised > target.bound && bound.promised.is_finite() && bound.missed > 0.5 * bound.promised
+        };
+        let (target, bound) = self.targets.iter().zip(&self.bounds).find(missing)?;
+        Some(format!(
+            "nothing aims at some of the light: {}. {:.0} samples a pixel may have missed what adds {:.3} to the {}; \
+             what they found has about {:.3}",
+            self.way, self.mean_samples, bound.missed, target.measure, bound.estimate
+        ))
+    }
 }
 
 impl fmt::Display for Reached {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         for (i, (target, bound)) in self.targets.iter().zip(&self.bounds).enumerate() {
             let sign = if i == 0 { "" } else { "; " };
-            let Bound { promised, estimate } = bound;
-            write!(
-                f,
-                "{sign}{} at most {promised:.3} with 95 % confidence (about {estimate:.3}), asked for {}",
-                target.measure, target.bound
-            )?;
+            let Bound { promised, estimate, .. } = bound;
+            let Target { measure, bound } = target;
+            match promised.is_finite() {
+                true => write!(
+                    f,
+                    "{sign}{measure} at most {promised:.3} with 95 % confidence (about {estimate:.3}), asked for {bound}"
+                ),
+                false => write!(f, "{sign}{measure}: nothing tells how large it is, asked for {bound}"),
+            }?;
         }
         Ok(())
     }

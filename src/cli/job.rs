@@ -5,6 +5,7 @@ use super::interrupt::Interrupt;
 use super::layers::{Picture, Plan};
 use super::preview::Preview;
 use super::progress::Shown;
+use super::promise::Goal;
 use super::render::RenderArgs;
 use super::show;
 use super::work::Work;
@@ -78,7 +79,8 @@ impl Job<'_> {
             }
             Effort::Time { time, most, aim: Some(aim) } => work.shared_for(layers, (time, most), aim, &develop),
             Effort::Error { ref targets, time, most } => {
-                work.for_error(layers, (targets, time, most), &develop).map(|reached| tell(&reached, quiet))
+                let goal = Goal { targets, time, most, chance: &needs.chance };
+                work.for_error(layers, &goal, &develop).map(|reached| tell(&reached, quiet))
             }
         };
         match preview {
@@ -176,6 +178,7 @@ impl Job<'_> {
 fn tell(reached: &Reached, quiet: bool) {
     if !reached.met {
         show::warning(format_args!("stopped before the error was small enough: {reached}"));
+        reached.reason().iter().for_each(show::note);
     } else if !quiet {
         show::note(reached);
     }

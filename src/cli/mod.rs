@@ -14,6 +14,7 @@ mod list;
 mod memory;
 mod preview;
 mod progress;
+pub mod promise;
 mod render;
 mod settings;
 mod show;

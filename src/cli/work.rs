@@ -1,11 +1,9 @@
 //! A render on its way: how many samples it goes on for, and which pixels get them.
 
-use super::effort::{Measure, Reached, Target};
-use super::show;
 use crate::film::{Develop, FilmError, Layers, REPLICATES};
 use crate::render::{PASS, Progress, Recorder, render_layers, render_planned};
 use crate::report::View;
-use crate::report::noise::{Bound, Noise, half};
+use crate::report::noise::Noise;
 use crate::report::parts::Parts;
 use crate::report::plan::{Aim, LEAST, Shares};
 use std::ops::Range;
@@ -14,15 +12,6 @@ use std::time::{Duration, Instant};
 
 /// Mean samples that are shared out at once, beyond what the noisiest pixels have: what an interrupted picture is uneven by.
 const AT_ONCE: f64 = 64.0;
-
-/// Samples of every pixel before any is judged: two of each replicate.
-const FIRST: u64 = 2 * REPLICATES as u64;
-
-/// The next look is at least this many times further, and at most so many: looking costs, and early errors are guesses.
-const STEP: (f64, f64) = (1.2, 4.0);
-
-/// Aimed at so many times the samples that should do, so that one look more is seldom needed.
-const AHEAD: f64 = 1.06;
 
 /// A render on its way.
 pub struct Work<'a> {
@@ -33,7 +22,7 @@ pub struct Work<'a> {
 }
 
 impl Work<'_> {
-    fn cancelled(&self) -> bool {
+    pub(super) fn cancelled(&self) -> bool {
         self.cancel.load(Ordering::Relaxed)
     }
 
@@ -151,87 +140,10 @@ impl Work<'_> {
         })
     }
 
-    fn go_on(&self, layers: &mut Layers, plan: &[Range<u64>]) {
+    /// More samples of each pixel, row by row from the top.
+    pub fn go_on(&self, layers: &mut Layers, plan: &[Range<u64>]) {
         render_planned(self.recorder, layers, plan, self.progress, self.cancel);
     }
-
-    /// Samples where they help most until the targets are met, the time is over, or `most` samples a pixel are reached.
-    pub fn for_error(
-        &self,
-        layers: &mut Layers,
-        (targets, time, most): (&[Target], Option<Duration>, u64),
-        develop: &Develop,
-    ) -> Result<Reached, FilmError> {
-        let started = Instant::now();
-        let each = REPLICATES as u64;
-        let first = (FIRST.min(most) / each).max(1) * each;
-        self.evenly(layers, first);
-        let (width, view) = viewed(layers, develop)?;
-        let shares = Shares::new(&Noise::of_each(layers.replicates(), width, &view), width, aim(targets), LEAST);
-        let mut means = [first as f64; 2];
-        loop {
-            let bounds = of_all(targets, &look(layers, develop)?);
-            let mean = layers.film().samples() as f64 / layers.film().pixels().len() as f64;
-            self.tell(mean, targets, &bounds);
-            let affordable =
-                time.map_or(f64::INFINITY, |time| time.as_secs_f64() * mean / started.elapsed().as_secs_f64());
-            let met = excess(targets, &bounds) <= 1.0;
-            let reached = Reached { bounds, targets: targets.to_vec(), mean_samples: mean, met };
-            if affordable < mean * 1.05 || self.cancelled() {
-                return Ok(reached);
-            }
-            let within = |wanted: [f64; 2]| -> [f64; 2] {
-                std::array::from_fn(|half| wanted[half].min(affordable).min(most as f64).max(means[half]))
-            };
-            let mut next = within(self.next(layers, develop, targets, means)?);
-            if next == means && !met {
-                // Where either half finds the other one quiet enough, but both together are not, both go on.
-                next = within(means.map(|mean| mean * STEP.0));
-            }
-            if next == means {
-                return Ok(reached);
-            }
-            means = next;
-            self.go_on(layers, &shares.ranges(counts(layers), |at| means[half(at, width)], each));
-        }
-    }
-
-    /// How many samples either half of the picture is to have, as the other half tells.
-    fn next(
-        &self,
-        layers: &Layers,
-        develop: &Develop,
-        targets: &[Target],
-        means: [f64; 2],
-    ) -> Result<[f64; 2], FilmError> {
-        let (width, view) = viewed(layers, develop)?;
-        Ok([0, 1].map(|which| {
-            let other = Noise::of_half(layers.replicates(), width, &view, 1 - which);
-            // As if it had as many samples.
-            let excess = excess(targets, &of_all(targets, &other)) * (means[1 - which] / means[which]).sqrt();
-            match excess <= 1.0 {
-                true => means[which],
-                // Errors fall at least as the root of the samples.
-                false => (means[which] * excess * excess * AHEAD).clamp(means[which] * STEP.0, means[which] * STEP.1),
-            }
-        }))
-    }
-
-    fn tell(&self, mean: f64, targets: &[Target], bounds: &[Bound]) {
-        if self.quiet {
-            return;
-        }
-        let each = |(target, bound): (&Target, &Bound)| {
-            format!("{} ≤ {:.3} of {}", target.measure, bound.promised, target.bound)
-        };
-        let all: Vec<String> = targets.iter().zip(bounds).map(each).collect();
-        show::note(format_args!("{mean:>6.0} samples a pixel: {}", all.join(", ")));
-    }
-}
-
-/// What samples are shared out for, so that targets are met soon.
-fn aim(targets: &[Target]) -> Aim {
-    if targets.iter().all(|target| target.measure == Measure::Rmse) { Aim::Rmse } else { Aim::MeanDe }
 }
 
 /// Samples that pixels get at once: whole rounds of the replicates, or small nets.
@@ -240,30 +152,16 @@ fn step(layers: &Layers) -> u64 {
 }
 
 /// Samples that each pixel has drawn.
-fn counts(layers: &Layers) -> impl Iterator<Item = u64> {
+pub(super) fn counts(layers: &Layers) -> impl Iterator<Item = u64> {
     layers.film().pixels().iter().map(|pixel| u64::from(pixel.count()) + u64::from(pixel.rejected()))
 }
 
-fn of_all(targets: &[Target], noise: &Noise) -> Vec<Bound> {
-    targets.iter().map(|target| target.measure.of(noise)).collect()
-}
-
-/// The largest share of a target that is promised.
-fn excess(targets: &[Target], bounds: &[Bound]) -> f64 {
-    targets.iter().zip(bounds).map(|(target, bound)| bound.promised / target.bound).fold(0.0, f64::max)
-}
-
-fn width(layers: &Layers) -> usize {
+pub(super) fn width(layers: &Layers) -> usize {
     layers.film().window().width as usize
 }
 
 /// The width of what there is, and how it is looked at, at the exposure of what there is.
-fn viewed(layers: &Layers, develop: &Develop) -> Result<(usize, View), FilmError> {
+pub(super) fn viewed(layers: &Layers, develop: &Develop) -> Result<(usize, View), FilmError> {
     let ev = develop.exposure.ev(layers.film().luminances())?;
     Ok((width(layers), View::new(ev, develop.white)))
-}
-
-fn look(layers: &Layers, develop: &Develop) -> Result<Noise, FilmError> {
-    let (width, view) = viewed(layers, develop)?;
-    Ok(Noise::of(layers.replicates(), width, &view))
 }

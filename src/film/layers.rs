@@ -109,6 +109,50 @@ impl Layers {
     }
 }
 
+/// Copies of some pixels and of their layers, as they were.
+#[derive(Clone, Debug)]
+pub struct Kept {
+    places: Vec<usize>,
+    pixels: Vec<Pixel>,
+    features: Vec<Features>,
+    replicates: Vec<Replicates>,
+    bands: Vec<i128>,
+}
+
+impl Layers {
+    /// Copies of the pixels at some places, row by row from the top.
+    pub fn keep(&self, places: Vec<usize>) -> Kept {
+        Kept {
+            pixels: picked(self.film.pixels(), 1, &places),
+            features: picked(&self.features, 1, &places),
+            replicates: picked(&self.replicates, 1, &places),
+            bands: picked(&self.bands, self.wanted.bands, &places),
+            places,
+        }
+    }
+
+    /// Undoes what was added to pixels since they were kept.
+    pub fn put_back(&mut self, kept: &Kept) {
+        put(self.film.pixels_mut(), 1, &kept.places, &kept.pixels);
+        put(&mut self.features, 1, &kept.places, &kept.features);
+        put(&mut self.replicates, 1, &kept.places, &kept.replicates);
+        put(&mut self.bands, self.wanted.bands, &kept.places, &kept.bands);
+    }
+}
+
+/// Those at some places of values of which each place has `each`; none of none.
+fn picked<T: Copy>(values: &[T], each: usize, places: &[usize]) -> Vec<T> {
+    let of = |place: &usize| values.get(place * each..(place + 1) * each).unwrap_or_default();
+    places.iter().flat_map(of).copied().collect()
+}
+
+/// The inverse of [`picked`].
+fn put<T: Copy>(values: &mut [T], each: usize, places: &[usize], kept: &[T]) {
+    for (place, own) in places.iter().zip(kept.chunks_exact(each.max(1))) {
+        values[place * each..(place + 1) * each].copy_from_slice(own);
+    }
+}
+
 impl LayersRow<'_> {
     /// Adds to a band of a pixel what one sample estimates its spectral radiance to be.
     #[inline]
@@ -122,4 +166,38 @@ impl LayersRow<'_> {
 
 fn rows<T>(values: &mut [T], width: usize) -> impl Iterator<Item = &mut [T]> {
     values.chunks_exact_mut(width.max(1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_added_to_kept_pixels_is_undone_and_no_more() {
+        let wanted = Wanted { features: true, replicates: true, bands: 2 };
+        let mut layers = Layers::new([3, 2], Window::full(3, 2), wanted).expect("small");
+        let add = |layers: &mut Layers, value: f32| {
+            for mut row in layers.rows_mut() {
+                for at in 0..3 {
+                    row.pixels[at].add([value; 3]);
+                    row.features[at].add([value; 3], [0.0, 0.0, 1.0]);
+                    row.replicates[at].add(1, [value; 3]);
+                    (0..2).for_each(|band| row.add_band(at, band, value));
+                }
+            }
+        };
+        add(&mut layers, 1.0);
+        let before = layers.clone();
+        let kept = layers.keep(vec![0, 4]);
+        add(&mut layers, 2.0);
+        let after = layers.clone();
+        layers.put_back(&kept);
+        for at in 0..6 {
+            let expected = if at == 0 || at == 4 { &before } else { &after };
+            assert_eq!(layers.film().pixels()[at], expected.film().pixels()[at]);
+            assert_eq!(layers.features[at], expected.features[at]);
+            assert_eq!(layers.replicates[at], expected.replicates[at]);
+            assert_eq!(layers.bands[2 * at..2 * at + 2], expected.bands[2 * at..2 * at + 2]);
+        }
+    }
 }

@@ -32,7 +32,7 @@ pub use exposure::Exposure;
 pub use features::Features;
 pub use gamut::{Gamut, GamutReport};
 pub use hash::fnv1a_64;
-pub use layers::{Layers, LayersRow, Wanted};
+pub use layers::{Kept, Layers, LayersRow, Wanted};
 pub use pixel::Pixel;
 pub use replicates::{REPLICATES, Replicates};
 pub use window::Window;

@@ -1,4 +1,4 @@
-//! Schlick's approximation with the dip before grazing: exact at normal incidence, at 82° and at 90°, for each wavelength.
+//! Schlick's approximation with the dip before grazing: exact at normal incidence, at cos θ = 1/7 (81.79°) and at 90°, for each wavelength.
 //!
 //! ```text
 //! F(θ) = S(θ) − b c (1 − c)⁶,   S(θ) = F0 + (1 − F0)(1 − c)⁵,   c = cos θ

@@ -1,4 +1,4 @@
-//! F82 as a colour that multiplies Schlick's at 82°: what artists set in Standard Surface, OpenPBR and MaterialX.
+//! F82 as a colour that multiplies Schlick's at cos θ = 1/7: what artists set in Standard Surface, OpenPBR and MaterialX.
 //!
 //! ```text
 //! F(θ) = S(θ) − b c (1 − c)⁶,   S(θ) = F0 + (1 − F0)(1 − c)⁵,   c = cos θ

@@ -79,7 +79,7 @@ models! {
         Exact = "exact", conductor::Conductor;
         /// Schlick 1994, with F0 from n and k.
         Schlick = "schlick", schlick::Schlick;
-        /// Hoffman 2019, per wavelength: Schlick with its dip at 82°.
+        /// Hoffman 2019, per wavelength: Schlick with its dip at cos θ = 1/7 (81.79°).
         F82Spectral = "f82-spectral", f82_spectral::F82Spectral;
         /// The reflectance at normal incidence at every angle.
         Constant = "constant", constant::Constant;
@@ -97,7 +97,7 @@ models! {
         SchlickGaussian = "schlick-gaussian", schlick_gaussian::SchlickGaussian;
         /// Lazányi & Szirmay-Kalos 2005: Schlick minus a fitted dip.
         Lazanyi = "lazanyi", lazanyi::Lazanyi;
-        /// Hoffman 2019, in RGB: Schlick with its dip at 82°.
+        /// Hoffman 2019, in RGB: Schlick with its dip at cos θ = 1/7 (81.79°).
         F82 = "f82", f82::F82;
         /// Kutz, Hašan & Edmondson 2021: F82 as a tint, bounded.
         F82Tint = "f82-tint", f82_tint::F82Tint;

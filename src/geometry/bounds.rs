@@ -46,6 +46,11 @@ impl Bounds {
         if self.is_empty() { Vec3::ZERO } else { self.max - self.min }
     }
 
+    /// How far a point is from the box; 0 inside.
+    pub fn distance_to(&self, point: Vec3) -> f32 {
+        point.distance(point.clamp(self.min, self.max))
+    }
+
     pub fn contains(&self, point: Vec3) -> bool {
         point.cmpge(self.min).all() && point.cmple(self.max).all()
     }

@@ -30,6 +30,7 @@ pub struct Map {
     /// 1 over the solid angle of a texel, by row, sr⁻¹.
     densities: Vec<f32>,
     chosen: f64,
+    brightest: f64,
 }
 
 /// What a map shows in a direction.
@@ -62,6 +63,7 @@ impl Map {
             tints,
             light,
             chosen: weights.iter().sum(),
+            brightest: luminances.iter().copied().fold(0.0, f32::max).into(),
             distribution: Distribution::new(width, &weights),
             densities: angles.iter().map(|angle| (1.0 / angle) as f32).collect(),
             grid,
@@ -80,6 +82,11 @@ impl Map {
     /// ∫ over the sphere of the luminance that directions are chosen by, relative to that of white, sr.
     pub fn chosen(&self) -> f64 {
         self.chosen
+    }
+
+    /// The largest luminance of a texel, relative to that of white.
+    pub fn brightest(&self) -> f64 {
+        self.brightest
     }
 
     #[inline]

@@ -69,8 +69,13 @@ impl Point {
         Self { position, square: (meters_per_unit * meters_per_unit) as f32, cone }
     }
 
-    pub(super) fn position(&self) -> Vec3 {
+    pub fn position(&self) -> Vec3 {
         self.position
+    }
+
+    /// Irradiance per intensity at a distance in scene units, m⁻².
+    pub fn irradiance(&self, distance: f64) -> f64 {
+        1.0 / (distance * distance * f64::from(self.square))
     }
 
     /// Axis of its cone, and the angles from it up to which there is full light and any, radians.

@@ -30,6 +30,16 @@ impl Sun {
         })
     }
 
+    /// Towards its middle.
+    pub fn toward(&self) -> Vec3 {
+        self.toward
+    }
+
+    /// Radians.
+    pub fn half_angle(&self) -> f64 {
+        2.0 * libm::asin((0.5 * f64::from(self.versine)).sqrt())
+    }
+
     /// ∫ cos θ dω over the disk for a surface that faces it, sr: illuminance over luminance.
     pub fn projected_solid_angle(&self) -> f64 {
         let versine = f64::from(self.versine);

@@ -3,7 +3,7 @@
 //! - `f0`: colours of interfaces at normal incidence, at 82° and averaged, for tables and for checking those of others.
 //! - `fresnel`: reflectance curves, and the errors of approximations.
 //! - `view`: radiances as a display shows them; `difference`: two pictures compared, replicate by replicate.
-//! - `noise`: how far a picture is from the one without noise; `plan`: which pixel gets how many samples;
+//! - `noise`: how far a picture is from the one without noise; `bound`: what may be promised of that; `plan`: which pixel gets how many samples;
 //!   `parts`: what first samples tell of that.
 //! - `jackknife`: what independent replicates say of a number's error.
 //! - `comparison`: variants of a scene beside each other, as one HTML page and as JSON.
@@ -16,6 +16,7 @@
 //! Numbers in, text and pixels out: this room knows no scene.
 
 pub mod bench;
+pub mod bound;
 pub mod colormap;
 pub mod comparison;
 pub mod difference;

@@ -11,8 +11,7 @@
 //! (`render::Recorder::in_halves`; replicates do anyway), and each is shared out by itself, so that the number of a pixel's samples depends
 //! on nothing that its half has drawn: its mean is what it is without any plan (`tests/target_error.rs`). Only the exposure by which ΔE is
 //! seen may be that of the whole picture, and where time is the limit, how many samples there are in all.
-//! When to go on is decided for either half by the noise of the other ([`super::noise`]), for the same reason: a picture that stops when
-//! it happens to look quiet is darker in the mean. That both are quiet enough together ends it.
+//! When to go on is decided for either half by the other one, for the same reason (`cli::promise`).
 
 use super::noise::{Noise, half};
 use std::ops::Range;
@@ -139,7 +138,12 @@ mod tests {
 
     /// Errors of either kind as given.
     fn noise(errors: &[f32]) -> Noise {
-        Noise { de: errors.to_vec(), squares: errors.iter().map(|error| error * error).collect() }
+        Noise {
+            de: errors.to_vec(),
+            squares: errors.iter().map(|error| error * error).collect(),
+            colors: vec![[0.0; 3]; errors.len()],
+            sharing: 1.0,
+        }
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! From files to a scene that can be rendered without failing: describe → resolve → needs.
 
 pub mod describe;
+mod chance;
 mod error;
 mod forms;
 mod lighting;
@@ -12,6 +13,7 @@ mod pictures;
 mod resolve;
 mod words;
 
+pub use chance::Chance;
 pub use error::{Place, SceneError, Text};
 pub use needs::{Decision, Needs, listed};
 pub use optics::{Class, Optics, class_of, optics};

@@ -1,5 +1,6 @@
 //! Which physics a scene uses, and why: what it does not need is neither loaded nor run.
 
+use super::chance::{self, Chance};
 use super::{Inside, Interface, MediumId, Object, Pattern, Physics, Scene, Surface, lighting};
 use crate::bsdf::conductor::MIRROR_ALPHA;
 use crate::fresnel::FresnelModel;
@@ -16,6 +17,8 @@ pub struct Needs {
     pub physics: Physics,
     /// Whether anything takes its colour from a picture.
     pub pictures: bool,
+    /// The most that one path may find that nothing aims at.
+    pub chance: Chance,
     pub decisions: Vec<Decision>,
 }
 
@@ -30,6 +33,7 @@ pub struct Decision {
 impl Needs {
     pub fn of(scene: &Scene) -> Self {
         let (wavelength_density, wavelengths) = lighting::wavelengths(scene);
+        let (chance, by_chance) = chance::of(scene);
         let decisions = vec![
             wavelengths,
             dispersion(scene),
@@ -43,8 +47,9 @@ impl Needs {
             light_sampling(scene),
             light_tree(scene),
             environment(scene),
+            by_chance,
         ];
-        Self { wavelength_density, physics: physics(scene), pictures: pictures(scene), decisions }
+        Self { wavelength_density, physics: physics(scene), pictures: pictures(scene), chance, decisions }
     }
 }
 

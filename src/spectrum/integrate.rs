@@ -32,9 +32,14 @@ pub fn tristimulus(factors: &[&Spectrum], observer: &ColorMatching) -> Xyz {
     integrate_with(factors, observer.y.wavelengths_nm(), |nm| observer.at(nm), 1)
 }
 
-/// Luminance of a spectral radiance in W m⁻² sr⁻¹ nm⁻¹, cd/m²: 683 ∫ L ȳ dλ.
+/// XYZ of a spectral radiance in W m⁻² sr⁻¹ nm⁻¹, cd/m²: 683 ∫ L (x̄, ȳ, z̄) dλ.
+pub fn radiance_xyz(radiance: &Spectrum, observer: &ColorMatching) -> Xyz {
+    tristimulus(&[radiance], observer).map(|integral| LUMENS_PER_WATT * integral)
+}
+
+/// Luminance of a spectral radiance in W m⁻² sr⁻¹ nm⁻¹, cd/m²: the Y of [`radiance_xyz`].
 pub fn luminance(radiance: &Spectrum, observer: &ColorMatching) -> f64 {
-    LUMENS_PER_WATT * tristimulus(&[radiance], observer)[1]
+    radiance_xyz(radiance, observer)[1]
 }
 
 /// XYZ of a perfect reflector under an illuminant, Y = 1, from the exact integral.

@@ -53,7 +53,7 @@ pub use density::Density;
 pub use emission::{Daylight, Line, planck};
 pub use error::{SpectrumError, nearest};
 pub use formula::{Formula, FormulaType};
-pub use integrate::{integrate, luminance, tristimulus, tristimulus_1nm, white_xyz, white_xyz_1nm};
+pub use integrate::{integrate, luminance, radiance_xyz, tristimulus, tristimulus_1nm, white_xyz, white_xyz_1nm};
 pub use lanes::{LANES, Lanes};
 pub use library::{Library, MaterialText};
 pub use nodes::{NODE_COUNT, Nodes};

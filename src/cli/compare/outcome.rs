@@ -7,11 +7,12 @@ use super::replicates::{Plan, Rendered};
 use super::variants::Variant;
 use crate::film::{Develop, Developed, Exposure};
 use crate::image::{self, Format, Metadata, Options, png};
+use crate::report::bound::Unseen;
 use crate::report::colormap::{DELTA_E, LUMINANCE, Scale};
 use crate::report::comparison::{self, Comparison, Data, Files, HTML_FILE, JSON_FILE, Pictures, Settings};
 use crate::report::difference::{Compared, Image, compare, noise};
-use crate::report::{Verdict, View, markup};
-use crate::scene::{Scene, SceneError, Text};
+use crate::report::{Difference, Verdict, View, markup};
+use crate::scene::{Chance, Needs, Scene, SceneError, Text};
 use rayon::prelude::*;
 use std::time::Instant;
 
@@ -41,8 +42,10 @@ impl Outcome<'_> {
         let developed = self.develop()?;
         let first = &developed[0];
         let (view, reference) = (View::new(first.ev, first.white), self.replicates(0));
+        let chance = self.chance();
+        let unseen = self.unseen(&view, &chance);
         let compared: Vec<_> =
-            (1..self.variants.len()).map(|i| compare(&view, reference, self.replicates(i))).collect();
+            (1..self.variants.len()).map(|i| compare(&view, reference, self.replicates(i), &unseen)).collect();
         let encode = |i: usize| self.encode(i, &developed[i], i.checked_sub(1).map(|before| &compared[before]));
         let files = (0..developed.len()).into_par_iter().map(encode).collect::<Result<Vec<_>, _>>()?;
         let (pictures, exr) = files.into_iter().unzip();
@@ -58,6 +61,7 @@ impl Outcome<'_> {
             interrupted,
             data: data.into_iter().map(|(about, used_by)| Data::new(about, used_by)).collect(),
             curves: curves(self.scenes, &self.labels()),
+            by_chance: chance.way,
         };
         comparison.report_seconds = started.elapsed().as_secs_f64();
         Ok(Report { comparison, pictures, exr })
@@ -89,6 +93,13 @@ impl Outcome<'_> {
         let comparison = &report.comparison;
         let names = ["variant", "render s", "ns", "mean ΔE", "95 % interval", "noise ΔE", "max ΔE", "energy %", ""];
         show::answer(show::table(names, comparison.variants.iter().map(row)))?;
+        let unsure = |variant: &comparison::Variant| variant.difference.as_ref().is_some_and(Difference::may_miss_much);
+        if comparison.variants.iter().any(unsure) {
+            show::warning(format_args!(
+                "more than half of an interval is light that no path may have found: {}",
+                comparison.by_chance
+            ));
+        }
         let rendering = comparison.rendering_seconds;
         show::note(format_args!(
             "rendering {rendering:.1} s, report {seconds:.2} s ({:.1} %)",
@@ -96,6 +107,19 @@ impl Outcome<'_> {
         ));
         show::note(format_args!("wrote {}", self.args.folder().join(HTML_FILE).display()));
         Ok(())
+    }
+
+    /// The brightest light that any of the variants may not have found.
+    fn chance(&self) -> Chance {
+        let of = |scene: &Scene| Needs::of(scene).chance;
+        self.scenes.iter().map(of).reduce(Chance::brighter).unwrap_or_default()
+    }
+
+    fn unseen(&self, view: &View, chance: &Chance) -> Unseen {
+        let film = &self.rendered[0].film;
+        let pixels = film.pixels().len() as f64;
+        let brightest = view.display_f64(chance.brightest);
+        Unseen { brightest, samples: film.samples() as f64 / pixels, pixels }
     }
 
     fn replicates(&self, variant: usize) -> &[Image] {

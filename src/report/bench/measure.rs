@@ -4,6 +4,7 @@ use super::error::{Error, common_square, error, noise};
 use super::ratio::median;
 use super::{Bias, CLEAR, Ratio, Reference, Run, Variant, Way, findings, pareto};
 use crate::report::View;
+use crate::report::bound::Unseen;
 use crate::report::difference::{self, Compared, Image, compare, merged};
 
 /// All renders of one variant with so many samples; the nth of each variant has the same seed, and was made in the same turn.
@@ -82,7 +83,7 @@ impl Standard {
     fn bias(&self, view: &View, usual: &Measured) -> Option<Bias> {
         let Self::Rendered { replicates, .. } = self else { return None };
         let paired: Vec<Image> = replicates.chunks(2).map(merged).collect();
-        Some(bias(&compare(view, &paired, &most(usual)?.images)))
+        Some(bias(&compare(view, &paired, &most(usual)?.images, &Unseen::NOTHING)))
     }
 }
 
@@ -112,7 +113,7 @@ pub fn measure(view: &View, standard: &Standard, all: &[Measured], scale: Scale)
         time: (!measured.way.is_usual()).then(|| time(measured, usual)).flatten(),
         bias: match measured.way.is_usual() {
             true => standard.bias(view, usual),
-            false => most(usual).zip(most(measured)).map(|(a, b)| bias(&compare(view, &a.images, &b.images))),
+            false => most(usual).zip(most(measured)).map(|(a, b)| bias(&compare(view, &a.images, &b.images, &Unseen::NOTHING))),
         },
         runs: runs(view, &image, &reference, measured, scale),
     };

@@ -39,6 +39,7 @@ pub fn page(comparison: &Comparison, pictures: &[Pictures]) -> Result<String, su
         ("legend-luminance", legend(LUMINANCE, signed_percent)),
         ("maps", page.maps()),
         ("rows", page.rows()),
+        ("chance", page.chance()),
         ("curves", comparison.curves.iter().map(figure).collect()),
         ("data", comparison.data.iter().map(source).collect()),
         ("settings", page.settings()),
@@ -160,6 +161,22 @@ impl Page<'_> {
 
     fn rows(&self) -> String {
         self.comparison.variants.iter().map(row).collect()
+    }
+
+    /// What intervals hold that no path may have found.
+    fn chance(&self) -> String {
+        let way = &self.comparison.by_chance;
+        let differences = self.comparison.variants.iter().filter_map(|variant| variant.difference.as_ref());
+        let most = differences.map(|difference| difference.missed).max_by(|a, b| a.delta_e2000.total_cmp(&b.delta_e2000));
+        most.filter(|missed| missed.delta_e2000 > 0.0).map_or(String::new(), |missed| {
+            format!(
+                "<p>Nothing aims at some of the light: {}. Paths may not have found it, so that intervals reach {} ΔE2000 and {} % of \
+                 energy further.</p>",
+                escaped(way),
+                short(missed.delta_e2000),
+                short(100.0 * missed.energy)
+            )
+        })
     }
 
     fn settings(&self) -> String {

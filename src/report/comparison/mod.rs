@@ -41,6 +41,8 @@ pub struct Comparison {
     pub interrupted: bool,
     pub data: Vec<Data>,
     pub curves: Vec<Curves>,
+    /// Which light comes by ways that nothing aims at, so that paths may not have found it; empty if none does.
+    pub by_chance: String,
 }
 
 /// What it takes to make the same report again.

@@ -16,6 +16,9 @@
 //!   noise of each shows in their sum only. What is no more than the rounding of single precision is none. Without a difference the jackknife's reach is about 1.5 times too wide (8 replicates; Efron &
 //!   Stein 1981): false alarms are rarer than the nominal 3.5 % (`tests/compare_statistics.rs`).
 //!
+//! What no path has found is in no replicate. Where light comes by ways that nothing aims at, the interval of ΔE ends as much higher, and
+//! that of the energy is as much wider, as such light may change them ([`super::bound`]): a model has it or has it not.
+//!
 //! Limits: ΔE2000 is no norm, and L*a*b* bends: where a pixel's noise is as large as its colour, M may fall short by the bend.
 //!
 //! Pictures are compared as [`View`] shows them. RMSE and relMSE are of linear sRGB, the mean of (x − r)² and of
@@ -24,6 +27,7 @@
 mod sums;
 
 use super::View;
+use super::bound::Unseen;
 use super::jackknife::Estimate;
 use crate::spectrum::{Xyz, ciede2000};
 use rayon::prelude::*;
@@ -59,6 +63,17 @@ pub struct Difference {
     pub rel_mse: f64,
     /// Mean luminance over the reference's, less 1.
     pub energy: Estimate,
+    /// What light that no path has found may add to both intervals.
+    pub missed: Missed,
+}
+
+/// What may have been missed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Missed {
+    /// Mean ΔE2000.
+    pub delta_e2000: f64,
+    /// As [`Difference::energy`].
+    pub energy: f64,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -97,8 +112,8 @@ pub struct Compared {
 /// Pixels that are summed up at a time, whatever the number of threads.
 const CHUNK: usize = 1024;
 
-/// Compares the replicates of a picture with those of a reference: as many, at least [`FEWEST`], of equal size.
-pub fn compare(view: &View, reference: &[Image], picture: &[Image]) -> Compared {
+/// Compares the replicates of a picture with those of a reference: as many, at least [`FEWEST`], of equal size, in which light may be missing.
+pub fn compare(view: &View, reference: &[Image], picture: &[Image], unseen: &Unseen) -> Compared {
     let count = reference.first().map_or(0, Vec::len);
     let chunks: Vec<(Sums, Vec<[f32; 2]>)> = (0..count.div_ceil(CHUNK))
         .into_par_iter()
@@ -117,7 +132,31 @@ pub fn compare(view: &View, reference: &[Image], picture: &[Image]) -> Compared 
     chunks.iter().for_each(|(chunk, _)| sums.merge(chunk));
     let maps = || chunks.iter().flat_map(|(_, maps)| maps);
     let delta_e: Vec<f32> = maps().map(|map| map[0]).collect();
-    Compared { difference: sums.difference(&delta_e), luminance: maps().map(|map| map[1]).collect(), delta_e }
+    let colors: Vec<_> = merged(reference).iter().map(|xyz| view.display(*xyz).map(|c| c as f32)).collect();
+    let difference = sums.difference(&delta_e).allowing_for(view, &colors, unseen);
+    Compared { difference, luminance: maps().map(|map| map[1]).collect(), delta_e }
+}
+
+impl Difference {
+    /// Whether more than half of an interval is what no path may have found.
+    pub fn may_miss_much(&self) -> bool {
+        let half = |[low, high]: [f64; 2]| 0.5 * (high - low);
+        self.missed.delta_e2000 > half(self.delta_e2000.interval_95)
+            || 2.0 * self.missed.energy > half(self.energy.interval_95)
+    }
+
+    /// With intervals that hold the truth whatever no path has found; `colors` are the reference's, relative to display white.
+    fn allowing_for(mut self, view: &View, colors: &[[f32; 3]], unseen: &Unseen) -> Self {
+        if unseen.luminance() == 0.0 || self.verdict == Verdict::Identical {
+            return self;
+        }
+        let luminance = colors.iter().map(|xyz| f64::from(xyz[1])).sum::<f64>() / colors.len() as f64;
+        self.missed = Missed { delta_e2000: unseen.mean_de(view, colors), energy: unseen.luminance() / luminance };
+        self.delta_e2000.interval_95[1] += self.missed.delta_e2000;
+        let [low, high] = self.energy.interval_95;
+        self.energy.interval_95 = [low - self.missed.energy, high + self.missed.energy];
+        self
+    }
 }
 
 /// How noisy the mean of replicates is.
@@ -185,7 +224,7 @@ mod tests {
     fn measures_without_noise_are_those_by_hand() {
         let grey = replicates([[[0.5; 3], [0.2; 3]]; 4]);
         let other = replicates([[[0.5, 0.6, 0.5], [0.2, 0.2, 0.5]]; 4]);
-        let Compared { difference, delta_e, luminance } = compare(&view(), &grey, &other);
+        let Compared { difference, delta_e, luminance } = compare(&view(), &grey, &other, &Unseen::NOTHING);
         let square = 0.1 * 0.1 + 0.3 * 0.3;
         assert!(near(difference.rmse, (square / 6.0_f64).sqrt()), "{difference:?}");
         let relative = 0.01 / 0.26 + 0.09 / 0.05;
@@ -212,7 +251,7 @@ mod tests {
     fn the_same_is_identical_even_if_noisy() {
         let noisy =
             replicates([[[0.5; 3], [0.2; 3]], [[0.4; 3], [0.1; 3]], [[0.6; 3], [0.2; 3]], [[0.3; 3], [0.9; 3]]]);
-        let difference = compare(&view(), &noisy, &noisy).difference;
+        let difference = compare(&view(), &noisy, &noisy, &Unseen::NOTHING).difference;
         assert_eq!(difference.verdict, Verdict::Identical);
         let zero = Estimate { value: 0.0, interval_95: [0.0; 2] };
         assert_eq!((difference.delta_e2000.mean, difference.delta_e2000.max, difference.rmse), (0.0, 0.0, 0.0));

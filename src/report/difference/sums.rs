@@ -2,7 +2,7 @@
 
 use super::super::View;
 use super::super::jackknife::{Estimate, reach};
-use super::{DeltaE, Difference, Verdict, percentile};
+use super::{DeltaE, Difference, Missed, Verdict, percentile};
 use crate::spectrum::{Xyz, ciede2000, ciede2000_metric};
 
 /// Pictures are in single precision: rounding loses or gains less than that, of energy and of mean ΔE2000, always to the same side.
@@ -193,6 +193,7 @@ impl Sums {
             rmse_noise: each(self.square_noise / 3.0).sqrt(),
             rel_mse: each(self.relative_square / 3.0),
             energy,
+            missed: Missed::default(),
         }
     }
 

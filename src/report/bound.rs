@@ -1,0 +1,213 @@
+//! What may be promised of a picture's error: a number that it stays below with 95 %.
+//!
+//! Errors of pixels are those of [`Noise`]. Three things are added to what they are in the mean:
+//!
+//! - What their spread leaves open: 1.645 standard errors; pixels that share a covariance count once.
+//! - What their skewness leaves open. Where few pixels have most of the noise, the mean is a sum of few: if y are its parts, its
+//!   upper end lies (z² + 2)/3 · Σy³/Σy² further off, as it does for a Poisson number (z = 1.645; a compound Poisson sum to the same
+//!   order, E. A. Cornish & R. A. Fisher, "Moments and cumulants in the specification of distributions", Revue de l'Institut
+//!   International de Statistique 5 (1938)).
+//! - What nobody has found yet ([`Unseen`]). Of paths that meet a light by chance, fewer than 3 are missing with 95 %
+//!   (e⁻³ = 0.05), whatever they bring. Each brings at most the brightest light that has such a way. ΔE grows less than light does, so that the mean
+//!   is largest where what is missing lies evenly on all pixels, the 95th percentile where it lies on one in twenty, and the RMSE
+//!   where it would have been found by the pixels of the fewest samples.
+//!
+//! The mean ΔE of a pixel is at most √(8/3π) = 0.92 of its root mean square, where errors are normal (the same in three directions; 0.80
+//! in one). The 95th percentile is that of pixels whose ΔE is spread like |N(0, 1)|, which has the longest tail of those that normal
+//! errors make.
+
+use super::View;
+use super::noise::Noise;
+use crate::spectrum::{Xyz, ciede2000};
+use rayon::prelude::*;
+
+/// One-sided 95 % of a normal distribution, in standard deviations.
+const CONFIDENCE: f64 = 1.645;
+
+/// What the skewness of a sum adds to its upper end.
+const SKEW: f64 = (CONFIDENCE * CONFIDENCE + 2.0) / 3.0;
+
+/// As many events may be expected, and none be seen, with 5 %.
+const EVENTS: f64 = 3.0;
+
+/// Mean over root mean square of the length of a normal vector that is the same in three directions.
+const MEAN_OF_LENGTH: f64 = 0.9213;
+
+/// What the 95th percentile is of.
+const PERCENTILE: f64 = 0.95;
+
+/// |N(0, 1)| at the middles of eight equally likely parts.
+const HALF_NORMAL: [f64; 8] = [0.0784, 0.2372, 0.4023, 0.5791, 0.7764, 1.0100, 1.3180, 1.8627];
+
+/// What a picture's error is, as estimated and as promised: below it with 95 %.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bound {
+    pub estimate: f64,
+    /// What light that was not found may add to it.
+    pub missed: f64,
+    pub promised: f64,
+}
+
+/// Light that may be there though no path has found it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unseen {
+    /// XYZ relative to display white that one path brings at most.
+    pub brightest: Xyz,
+    /// Samples of the pixel that has fewest.
+    pub samples: f64,
+    /// Pixels of the picture.
+    pub pixels: f64,
+}
+
+impl Unseen {
+    /// For pictures in which everything is aimed at.
+    pub const NOTHING: Self = Self { brightest: [0.0; 3], samples: 1.0, pixels: 1.0 };
+
+    /// Mean ΔE2000 at most that it makes in pixels of these colours, relative to display white.
+    pub fn mean_de(&self, view: &View, colors: &[[f32; 3]]) -> f64 {
+        mean(&self.delta_e(view, colors, 1.0))
+    }
+
+    /// Mean luminance that may be missing, relative to display white.
+    pub fn luminance(&self) -> f64 {
+        self.evenly(1.0)[1]
+    }
+
+    /// If it lies evenly on a share of the pixels.
+    fn evenly(&self, share: f64) -> Xyz {
+        self.brightest.map(|c| EVENTS * c / (self.samples * self.pixels * share))
+    }
+
+    /// ΔE2000 that it makes in pixels of these colours if it lies evenly on a share of them, and each is one of these.
+    fn delta_e(&self, view: &View, colors: &[[f32; 3]], share: f64) -> Vec<f64> {
+        let missing = self.evenly(share);
+        let of = |color: &[f32; 3]| {
+            let color = color.map(f64::from);
+            let brighter = std::array::from_fn(|i| color[i] + missing[i]);
+            if color == brighter { 0.0 } else { ciede2000(view.lab(color), view.lab(brighter)) }
+        };
+        colors.par_iter().map(of).collect()
+    }
+}
+
+impl Bound {
+    /// Of what nothing is known.
+    const UNKNOWN: Self = Self { estimate: f64::INFINITY, missed: f64::INFINITY, promised: f64::INFINITY };
+
+    /// Mean ΔE2000.
+    pub fn of_mean_de(noise: &Noise, view: &View, unseen: &Unseen) -> Self {
+        let (estimate, upper) = mean_and_upper(&noise.de, noise.sharing);
+        let [estimate, upper] = [estimate, upper].map(|de| MEAN_OF_LENGTH * de);
+        let missed = unseen.mean_de(view, &noise.colors);
+        Self::new(estimate, missed, upper + missed)
+    }
+
+    /// 95th percentile of ΔE2000.
+    pub fn of_de95(noise: &Noise, view: &View, unseen: &Unseen) -> Self {
+        let pixels = (noise.de.len() as f64).max(1.0);
+        // The rank of a percentile among so many errors.
+        let upper = PERCENTILE + CONFIDENCE * (PERCENTILE * (1.0 - PERCENTILE) / pixels).sqrt();
+        let missing = unseen.delta_e(view, &noise.colors, 1.0 - PERCENTILE);
+        let none = vec![0.0; noise.de.len()];
+        let spread = |missing: &[f64]| {
+            let pixels = noise.de.par_iter().zip(missing);
+            let mut all: Vec<f64> =
+                pixels.flat_map_iter(|(de, missing)| HALF_NORMAL.map(|z| z * f64::from(*de) + missing)).collect();
+            all.par_sort_unstable_by(f64::total_cmp);
+            all
+        };
+        let (seen, all) = (spread(&none), spread(&missing));
+        Self::new(at(&seen, PERCENTILE), at(&all, PERCENTILE) - at(&seen, PERCENTILE), at(&all, upper))
+    }
+
+    /// Root mean square error of linear sRGB.
+    pub fn of_rmse(noise: &Noise, view: &View, unseen: &Unseen) -> Self {
+        let (estimate, upper) = mean_and_upper(&noise.squares, 1.0);
+        let light: f64 = view.rgb(unseen.brightest).iter().map(|c| c * c / 3.0).sum();
+        let missed = EVENTS * light / (unseen.samples * unseen.samples * unseen.pixels);
+        Self::new(estimate.sqrt(), missed.sqrt(), (upper + missed).sqrt())
+    }
+
+    fn new(estimate: f64, missed: f64, promised: f64) -> Self {
+        // Of no pixels, too.
+        if promised.is_finite() { Self { estimate, missed, promised } } else { Self::UNKNOWN }
+    }
+}
+
+/// The value that a share of sorted ones does not exceed; infinite if there are none.
+fn at(sorted: &[f64], share: f64) -> f64 {
+    let place = libm::ceil(share * sorted.len() as f64) as usize;
+    sorted.get(place.clamp(1, sorted.len().max(1)) - 1).copied().unwrap_or(f64::INFINITY)
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// The mean of values of which `sharing` count as one, and what it is below with 95 %. Of no values it is no number.
+fn mean_and_upper(values: &[f32], sharing: f64) -> (f64, f64) {
+    let count = values.len() as f64;
+    let mean = values.iter().copied().map(f64::from).sum::<f64>() / count;
+    let moment = |power: i32| values.iter().map(|value| (f64::from(*value) - mean).powi(power)).sum::<f64>();
+    let (squares, cubes) = (moment(2), moment(3));
+    let skew = if squares > 0.0 { SKEW * sharing * cubes.max(0.0) / (squares * count) } else { 0.0 };
+    (mean, mean + CONFIDENCE * (sharing * squares).sqrt() / count + skew)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::film::Replicates;
+
+    fn view() -> View {
+        View::new(0.0, [0.95, 1.0, 1.09])
+    }
+
+    fn all(noise: &Noise, unseen: &Unseen) -> [Bound; 3] {
+        [Bound::of_mean_de, Bound::of_de95, Bound::of_rmse].map(|of| of(noise, &view(), unseen))
+    }
+
+    /// A promise of what nobody has measured would end a render before it has begun.
+    #[test]
+    fn what_is_not_known_is_not_promised() {
+        let mut seen = Replicates::default();
+        (0..16).for_each(|i| seen.add(i % 8, [1.0, 1.0, 1.0 + 0.01 * i as f32]));
+        let known = Noise::of(&[seen; 4], 2, &view());
+        assert!(all(&known, &Unseen::NOTHING).iter().all(|bound| bound.promised > 0.0 && bound.promised < 10.0));
+        let unknown = Noise::of(&[seen, seen, seen, Replicates::default()], 2, &view());
+        let nobody = Noise::of_half(&[seen], 1, &view(), 1);
+        assert_eq!(all(&unknown, &Unseen::NOTHING), [Bound::UNKNOWN; 3]);
+        assert_eq!(all(&nobody, &Unseen::NOTHING), [Bound::UNKNOWN; 3]);
+    }
+
+    fn grey(pixels: usize) -> Noise {
+        Noise { de: vec![0.0; pixels], squares: vec![0.0; pixels], colors: vec![[0.2; 3]; pixels], sharing: 1.0 }
+    }
+
+    /// 3 paths of 4 × white among 100 pixels of 60 samples: 0.002 of white everywhere, 0.04 in one pixel of twenty, and 3 (4/60)² / 100 if
+    /// they were to come.
+    #[test]
+    fn what_may_be_missing_is_added() {
+        let view = view();
+        let white = view.display([0.95, 1.0, 1.09]);
+        let unseen = Unseen { brightest: white.map(|c| 4.0 * c), samples: 60.0, pixels: 100.0 };
+        let from = [0.2; 3].map(|c: f32| f64::from(c));
+        let with = |share: f64| ciede2000(view.lab(from), view.lab(std::array::from_fn(|i| from[i] + share * white[i])));
+        let expected = [with(0.002), with(0.04), (3.0_f64 * (4.0 / 60.0) * (4.0 / 60.0) / 100.0).sqrt()];
+        for (found, expected) in all(&grey(100), &unseen).iter().zip(expected) {
+            assert_eq!(found.estimate, 0.0);
+            assert!((found.missed / expected - 1.0).abs() < 1e-5 && found.missed == found.promised, "{found:?} {expected}");
+        }
+    }
+
+    /// Sums of few equal parts are Poisson numbers: their upper ends are known.
+    #[test]
+    fn sums_of_few_have_the_upper_ends_of_poisson_numbers() {
+        // Of the mean that 1, 3 and 10 events are too few for with 5 % (chi-squared quantiles, Garwood 1936).
+        for (events, upper) in [(1, 4.74), (3, 7.75), (10, 16.96)] {
+            let values: Vec<f32> = (0..1000).map(|i| if i < events { 1.0 } else { 0.0 }).collect();
+            let (_, found) = mean_and_upper(&values, 1.0);
+            assert!((1000.0 * found / upper - 1.0).abs() < 0.12, "{events}: {} for {upper}", 1000.0 * found);
+        }
+    }
+}

@@ -1,0 +1,227 @@
+//! Light that paths meet by chance, because nothing aims at it that way, and how bright it is.
+//!
+//! Shadow rays go straight to a light. By way of a smooth mirror or glass, and to the camera itself, light comes only along paths that
+//! happen to meet the lamp: what such a path brings is the lamp's whole radiance, and a lamp that is small and bright is found by one path
+//! in many. A render that has not met it yet knows nothing of it, so whoever promises an error has to add what may have been missed
+//! (`report::noise`). No path brings more than the brightest light that has such a way; [`Chance`] is that bound.
+//!
+//! On a surface of roughness α a light of solid angle Ω is aimed at, but only within the lobe: one sample brings at most
+//! F D / 4 · L Ω ≈ L Ω / (4 π α²) (GGX at its peak, B. Walter et al. 2007, equation 33); at grazing angles up to twice that. So sharp lobes
+//! count as L · min(1, Ω / (2 π α²)), wide ones not at all.
+
+use super::{Decision, Object, Pattern, Scene, Surface, listed};
+use crate::bsdf::conductor::MIRROR_ALPHA;
+use crate::geometry::{Bounds, ShapeId};
+use crate::light::{Emitter, Environment, Source};
+use crate::spectrum::{SpectrumId, Xyz, radiance_xyz};
+use std::f64::consts::PI;
+
+/// From this α on, lobes are wide enough to be met by one path in a few: what they bring is found like the light on a matt surface.
+const WIDE: f64 = 0.15;
+
+/// Of more lamps it is not asked how far they are from what they light: each may be next to it.
+const FEW: usize = 64;
+
+/// The most that one path brings along by a way that nothing aims at.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Chance {
+    /// XYZ in cd/m²; 0 where everything that shines is aimed at from everywhere.
+    pub brightest: Xyz,
+    /// What shines so, and which way it comes, for people.
+    pub way: String,
+}
+
+/// The bound of a scene, and the reason.
+pub fn of(scene: &Scene) -> (Chance, Decision) {
+    let lobes = Lobes::of(scene);
+    let shining = scene.lights.emitters().iter().filter(|emitter| emitter.power > 0.0);
+    let ways = shining.filter_map(|emitter| way(scene, &lobes, emitter)).chain(surroundings(scene, &lobes));
+    let chance = ways.reduce(Chance::brighter).unwrap_or_default();
+    let enclosed = enclosed(scene);
+    let reason = match (chance.way.as_str(), enclosed.as_slice()) {
+        ("", []) => "every light is aimed at from every surface that it reaches".into(),
+        (way, []) => way.to_owned(),
+        (way, enclosed) => format!("no shadow ray ever reaches {}; {way}", enclosed.join(", ")),
+    };
+    let used = !chance.way.is_empty();
+    (chance, Decision { part: "light by chance", used, reason })
+}
+
+fn sum(xyz: &Xyz) -> f64 {
+    xyz.iter().sum()
+}
+
+impl Chance {
+    /// The brighter one of two; the first if they are equal.
+    pub fn brighter(self, other: Self) -> Self {
+        if sum(&other.brightest) > sum(&self.brightest) { other } else { self }
+    }
+}
+
+/// The surfaces that show lights, sharply or as a glow.
+struct Lobes<'a> {
+    smooth: Vec<&'a str>,
+    /// Those of the least α of the others, which is infinite if there are none.
+    rough: Vec<&'a str>,
+    alpha: f64,
+}
+
+impl<'a> Lobes<'a> {
+    fn of(scene: &'a Scene) -> Self {
+        let all: Vec<_> =
+            scene.objects.iter().filter_map(|object| Some((object.name.as_str(), alpha(scene, object)?))).collect();
+        let least = all.iter().map(|(_, alpha)| *alpha).filter(|alpha| (MIRROR_ALPHA.into()..WIDE).contains(alpha)).fold(f64::INFINITY, f64::min);
+        let with = |wanted: f64| all.iter().filter(|(_, alpha)| *alpha == wanted).map(|(name, _)| *name).collect();
+        Self { smooth: with(0.0), rough: with(least), alpha: least }
+    }
+
+    /// Share of its radiance that a light of a solid angle (sr) brings by a rough surface.
+    fn share(&self, solid_angle: f64) -> f64 {
+        (solid_angle / (2.0 * PI * self.alpha * self.alpha)).min(1.0)
+    }
+}
+
+/// The least α of an object's surface, 0 if it is smooth; `None` if it has no lobe.
+fn alpha(scene: &Scene, object: &Object) -> Option<f64> {
+    let own = match scene.surfaces[object.surface as usize] {
+        Surface::Black | Surface::Diffuse { .. } => return None,
+        Surface::Conductor { alpha, .. } => alpha,
+        Surface::Dielectric(interface) => interface.alpha,
+    };
+    let least = match scene.patterns.get(&object.surface) {
+        Some(Pattern { alpha: Some(alphas), .. }) => alphas.all().iter().copied().fold(own, f32::min),
+        _ => own,
+    };
+    Some(if least < MIRROR_ALPHA { 0.0 } else { f64::from(least) })
+}
+
+/// How an emitter's light comes by chance, if it does.
+fn way(scene: &Scene, lobes: &Lobes, emitter: &Emitter) -> Option<Chance> {
+    let Light { radiance, solid_angle, is_met } = light(scene, emitter);
+    let mut ways = Vec::new();
+    let mut share = 0.0;
+    if is_seen(scene, emitter) {
+        ways.push("into the camera".to_owned());
+        share = 1.0;
+    }
+    if is_met && !lobes.smooth.is_empty() {
+        ways.push(format!("by way of smooth {}", listed(&lobes.smooth)));
+        share = 1.0;
+    } else if !lobes.rough.is_empty() {
+        ways.push(format!("by way of {}, rough {}", listed(&lobes.rough), lobes.alpha));
+        share = lobes.share(solid_angle).max(share);
+    }
+    (share > 0.0).then(|| comes(&name(scene, emitter), radiance.map(|c| c * share), &ways))
+}
+
+fn comes(name: &str, brightest: Xyz, ways: &[String]) -> Chance {
+    Chance { brightest, way: format!("{name}, up to {:.3} cd/m² a path, comes {}", brightest[1], ways.join(" and ")) }
+}
+
+/// An emitter where it is largest.
+struct Light {
+    /// XYZ in cd/m².
+    radiance: Xyz,
+    /// What it covers at most, sr.
+    solid_angle: f64,
+    /// Whether a path can meet it.
+    is_met: bool,
+}
+
+/// A point is taken for a disk of 1 sr that gives as much light.
+fn light(scene: &Scene, emitter: &Emitter) -> Light {
+    let radiance = xyz(scene, emitter.radiance);
+    match (emitter.source, &scene.lights.environment) {
+        (Source::Shape { id, .. }, _) => {
+            let covered = scene.world.shape(id).map(|shape| {
+                let radius = f64::from(shape.bounds().size().length()) / 2.0;
+                let ratio = radius / distance(scene, &shape.bounds()).max(radius);
+                PI * ratio * ratio
+            });
+            Light { radiance, solid_angle: covered.unwrap_or(PI), is_met: true }
+        }
+        (Source::Sun(sun), _) => Light { radiance, solid_angle: sun.projected_solid_angle(), is_met: true },
+        (Source::Point(point), _) => {
+            let near = NEAR * f64::from(scene.world.bounds().size().length());
+            let irradiance = point.irradiance(distance(scene, &Bounds::of([point.position()])).max(near));
+            Light { radiance: radiance.map(|c| c * irradiance), solid_angle: 1.0, is_met: false }
+        }
+        (Source::Map, Environment::Map(map)) => {
+            let brightest = map.brightest();
+            let radiance = radiance.map(|c| c * brightest);
+            Light { radiance, solid_angle: map.chosen() / brightest, is_met: true }
+        }
+        (Source::Map, _) => Light { radiance, solid_angle: PI, is_met: true },
+    }
+}
+
+/// Nearer than this part of the scene's size no point light is taken to be to what it lights.
+const NEAR: f64 = 0.02;
+
+fn name(scene: &Scene, emitter: &Emitter) -> String {
+    match emitter.source {
+        Source::Shape { id, .. } => format!("`{}`", scene.object(id).name),
+        Source::Sun(_) => "the sun".into(),
+        Source::Point(_) => "a point light".into(),
+        Source::Map => "the brightest texel of the surroundings".into(),
+    }
+}
+
+/// From the middle of a light to what reflects it, at least.
+fn distance(scene: &Scene, light: &Bounds) -> f64 {
+    if scene.lights.emitters().len() > FEW {
+        return 0.0;
+    }
+    let reflecting = scene.objects.iter().zip(scene.world.shapes());
+    let reflecting = reflecting.filter(|(object, _)| scene.surfaces[object.surface as usize] != Surface::Black);
+    reflecting
+        .map(|(_, shape)| f64::from(shape.bounds().distance_to(light.center())))
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// Whether the camera itself may look at an emitter, were nothing in between.
+fn is_seen(scene: &Scene, emitter: &Emitter) -> bool {
+    match emitter.source {
+        Source::Shape { id, .. } => scene.world.shape(id).is_some_and(|shape| scene.camera.may_see(&shape.bounds())),
+        Source::Sun(sun) => scene.camera.may_see_toward(sun.toward(), sun.half_angle()),
+        Source::Point(_) => false,
+        Source::Map => true,
+    }
+}
+
+/// Constant surroundings and gradients, which are found by the directions that surfaces choose.
+fn surroundings(scene: &Scene, lobes: &Lobes) -> Option<Chance> {
+    let spectra = match scene.lights.environment {
+        Environment::Dark | Environment::Map(_) => vec![],
+        Environment::Constant(id) => vec![id],
+        Environment::Gradient { nadir, horizon, zenith } => vec![nadir, horizon, zenith],
+    };
+    let brightest = spectra.into_iter().map(|id| xyz(scene, id)).max_by(|a, b| sum(a).total_cmp(&sum(b)))?;
+    let mut ways = vec!["into the camera".to_owned()];
+    ways.extend((!lobes.smooth.is_empty()).then(|| format!("by way of smooth {}", listed(&lobes.smooth))));
+    Some(comes("the light of the surroundings", brightest, &ways))
+}
+
+/// XYZ in cd/m² of a spectral radiance.
+fn xyz(scene: &Scene, id: SpectrumId) -> Xyz {
+    radiance_xyz(scene.spectra.get(id), &scene.picture.observer)
+}
+
+/// Lamps that stand inside of clear solids, each with one of them: whatever is outside has no straight way to them.
+fn enclosed(scene: &Scene) -> Vec<String> {
+    let inside = |id: ShapeId| {
+        let center = scene.world.shape(id)?.bounds().center();
+        let (outer, _) = scene.world.near(id).find(|(other, its)| {
+            matches!(scene.surfaces[scene.object(*other).surface as usize], Surface::Dielectric(_)) && its.contains(center)
+        })?;
+        Some(format!("`{}`, which is inside of `{}`", scene.object(id).name, scene.object(outer).name))
+    };
+    let lamps = scene.lights.emitters().iter().filter_map(|emitter| match emitter.source {
+        Source::Shape { id, .. } if emitter.power > 0.0 => Some(id),
+        _ => None,
+    });
+    lamps.filter_map(inside).take(FEW_NAMED).collect()
+}
+
+/// Lamps that are named.
+const FEW_NAMED: usize = 3;
