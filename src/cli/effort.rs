@@ -13,8 +13,9 @@ use std::time::Duration;
 
 #[derive(Clone, Debug, Args)]
 pub struct EffortArgs {
-    /// Render until the error of the picture is at most this, with 95 % confidence, and --spp or the limit at most: dE=0.5 for the
-    /// mean ΔE2000, dE95=1 for its 95th percentile, rmse=0.01 for linear RGB; several are all kept
+    /// Render until the error of the picture is at most this, with 95 % confidence, what paths may have missed counted in: dE=0.5 for
+    /// the mean ΔE2000, dE95=1 for its 95th percentile, rmse=0.01 for linear RGB; several are all kept. Where nothing can be promised
+    /// it goes on to --spp, or 65536 samples a pixel, and says so
     #[arg(long, value_name = "MEASURE=BOUND,…", value_delimiter = ',')]
     target_error: Vec<Target>,
     /// Render for this long, such as 60s, 5m or 1h, and then write what there is; samples are shared out unless --adaptive is off
@@ -210,11 +211,9 @@ pub struct Reached {
 }
 
 impl Reached {
-    /// Why it was not met, where light that may be missing has more than half of a promise that was not kept.
+    /// Why nothing can be promised, where light that may be missing is more than was asked for.
     pub fn reason(&self) -> Option<String> {
-        let missing = |(target, bound): &(&Target, &Bound)| {
-            bound.promised > target.bound && bound.promised.is_finite() && bound.missed > 0.5 * bound.promised
-        };
+        let missing = |(target, bound): &(&Target, &Bound)| bound.missed > target.bound && bound.missed.is_finite();
         let (target, bound) = self.targets.iter().zip(&self.bounds).find(missing)?;
         Some(format!(
             "nothing aims at some of the light: {}. {:.0} samples a pixel may have missed what adds {:.3} to the {}; \

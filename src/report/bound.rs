@@ -192,11 +192,15 @@ mod tests {
         let white = view.display([0.95, 1.0, 1.09]);
         let unseen = Unseen { brightest: white.map(|c| 4.0 * c), samples: 60.0, pixels: 100.0 };
         let from = [0.2; 3].map(|c: f32| f64::from(c));
-        let with = |share: f64| ciede2000(view.lab(from), view.lab(std::array::from_fn(|i| from[i] + share * white[i])));
+        let with =
+            |share: f64| ciede2000(view.lab(from), view.lab(std::array::from_fn(|i| from[i] + share * white[i])));
         let expected = [with(0.002), with(0.04), (3.0_f64 * (4.0 / 60.0) * (4.0 / 60.0) / 100.0).sqrt()];
         for (found, expected) in all(&grey(100), &unseen).iter().zip(expected) {
             assert_eq!(found.estimate, 0.0);
-            assert!((found.missed / expected - 1.0).abs() < 1e-5 && found.missed == found.promised, "{found:?} {expected}");
+            assert!(
+                (found.missed / expected - 1.0).abs() < 1e-5 && found.missed == found.promised,
+                "{found:?} {expected}"
+            );
         }
     }
 

@@ -70,7 +70,11 @@ impl<'a> Lobes<'a> {
     fn of(scene: &'a Scene) -> Self {
         let all: Vec<_> =
             scene.objects.iter().filter_map(|object| Some((object.name.as_str(), alpha(scene, object)?))).collect();
-        let least = all.iter().map(|(_, alpha)| *alpha).filter(|alpha| (MIRROR_ALPHA.into()..WIDE).contains(alpha)).fold(f64::INFINITY, f64::min);
+        let least = all
+            .iter()
+            .map(|(_, alpha)| *alpha)
+            .filter(|alpha| (MIRROR_ALPHA.into()..WIDE).contains(alpha))
+            .fold(f64::INFINITY, f64::min);
         let with = |wanted: f64| all.iter().filter(|(_, alpha)| *alpha == wanted).map(|(name, _)| *name).collect();
         Self { smooth: with(0.0), rough: with(least), alpha: least }
     }
@@ -108,14 +112,14 @@ fn way(scene: &Scene, lobes: &Lobes, emitter: &Emitter) -> Option<Chance> {
         ways.push(format!("by way of smooth {}", listed(&lobes.smooth)));
         share = 1.0;
     } else if !lobes.rough.is_empty() {
-        ways.push(format!("by way of {}, rough {}", listed(&lobes.rough), lobes.alpha));
+        ways.push(format!("by way of {}, rough {}", listed(&lobes.rough), lobes.alpha as f32));
         share = lobes.share(solid_angle).max(share);
     }
     (share > 0.0).then(|| comes(&name(scene, emitter), radiance.map(|c| c * share), &ways))
 }
 
 fn comes(name: &str, brightest: Xyz, ways: &[String]) -> Chance {
-    Chance { brightest, way: format!("{name}, up to {:.3} cd/m² a path, comes {}", brightest[1], ways.join(" and ")) }
+    Chance { brightest, way: format!("{name}, up to {:.0} cd/m² a path, comes {}", brightest[1], ways.join(" and ")) }
 }
 
 /// An emitter where it is largest.
@@ -174,9 +178,7 @@ fn distance(scene: &Scene, light: &Bounds) -> f64 {
     }
     let reflecting = scene.objects.iter().zip(scene.world.shapes());
     let reflecting = reflecting.filter(|(object, _)| scene.surfaces[object.surface as usize] != Surface::Black);
-    reflecting
-        .map(|(_, shape)| f64::from(shape.bounds().distance_to(light.center())))
-        .fold(f64::INFINITY, f64::min)
+    reflecting.map(|(_, shape)| f64::from(shape.bounds().distance_to(light.center()))).fold(f64::INFINITY, f64::min)
 }
 
 /// Whether the camera itself may look at an emitter, were nothing in between.
@@ -212,7 +214,8 @@ fn enclosed(scene: &Scene) -> Vec<String> {
     let inside = |id: ShapeId| {
         let center = scene.world.shape(id)?.bounds().center();
         let (outer, _) = scene.world.near(id).find(|(other, its)| {
-            matches!(scene.surfaces[scene.object(*other).surface as usize], Surface::Dielectric(_)) && its.contains(center)
+            matches!(scene.surfaces[scene.object(*other).surface as usize], Surface::Dielectric(_))
+                && its.contains(center)
         })?;
         Some(format!("`{}`, which is inside of `{}`", scene.object(id).name, scene.object(outer).name))
     };
@@ -225,3 +228,70 @@ fn enclosed(scene: &Scene) -> Vec<String> {
 
 /// Lamps that are named.
 const FEW_NAMED: usize = 3;
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Overrides, Text, resolve};
+    use super::*;
+    use crate::spectrum::Library;
+
+    const CAMERA: &str = "meters_per_unit = 0.01\ncamera = { position = [0, -5, 2], look_at = [0, 0, 0], fov = 20 }\n\
+        materials.grey.diffuse.reflectance = 0.5\n\
+        [[objects]]\nmaterial = \"grey\"\nshape.rectangle = { size = [9, 9] }\n";
+
+    const LAMP: &str = "[[objects]]\nname = \"lamp\"\nshape.sphere = { radius = 0.1, center = [0, 0, 4] }\n\
+        emission = { spectrum = \"D65\", luminance = 1000 }\n";
+
+    fn chance(more: &str) -> (Chance, Decision) {
+        let text = Text::new("scene.toml", format!("{CAMERA}{LAMP}{more}"));
+        let scene = resolve(text, &Library::new(Vec::new()), &Overrides::default());
+        of(&scene.unwrap_or_else(|error| panic!("{error}")))
+    }
+
+    fn luminance(more: &str) -> f64 {
+        chance(more).0.brightest[1]
+    }
+
+    #[test]
+    fn a_lamp_out_of_view_over_matt_things_is_aimed_at() {
+        let (chance, decision) = chance("");
+        assert!(chance == Chance::default() && !decision.used, "{chance:?}");
+    }
+
+    #[test]
+    fn smooth_things_and_the_view_show_a_lamp_as_bright_as_it_is() {
+        let gold = "[[objects]]\nmaterial = \"gold\"\nshape.sphere = { radius = 0.5, center = [0, 0, 0.5] }\n";
+        let in_view = "[[objects]]\nname = \"other\"\nshape.sphere = { radius = 0.1, center = [0, 0, 0.5] }\n\
+            emission = { spectrum = \"D65\", luminance = 1000 }\n";
+        for more in [gold, in_view] {
+            assert!((luminance(more) / 1000.0 - 1.0).abs() < 1e-3, "{more}");
+        }
+        assert!(chance(gold).0.way.contains("by way of smooth object"), "{:?}", chance(gold));
+        assert!(chance(in_view).0.way.contains("`other`") && chance(in_view).0.way.contains("into the camera"));
+    }
+
+    /// The lamp's ball of radius 0.1 √3 stands 3.4 above the sphere's box: π (0.1732 / 3.4)² / (2 π α²) of 1000.
+    #[test]
+    fn sharp_lobes_bring_what_the_lamp_fills_of_them() {
+        let satin = |alpha: f64| {
+            format!(
+                "[materials.satin.conductor]\nior = \"Au/olmon-2012-evaporated\"\nroughness = {alpha}\n\
+                 [[objects]]\nmaterial = \"satin\"\nshape.sphere = {{ radius = 0.3, center = [0, 0, 0.3] }}\n"
+            )
+        };
+        let expected = 1000.0 * 0.03 / (3.4 * 3.4 * 2.0 * 0.05 * 0.05);
+        assert!((luminance(&satin(0.05)) / expected - 1.0).abs() < 1e-3, "{} {expected}", luminance(&satin(0.05)));
+        assert_eq!(luminance(&satin(0.3)), 0.0);
+    }
+
+    #[test]
+    fn what_no_shadow_ray_reaches_is_named() {
+        let bulb =
+            "[[objects]]\nname = \"bulb\"\nmaterial = \"bk7\"\nshape.sphere = { radius = 0.5, center = [0, 0, 4] }\n";
+        let (_, decision) = chance(bulb);
+        assert!(
+            decision.reason.contains("no shadow ray ever reaches `lamp`, which is inside of `bulb`"),
+            "{decision:?}"
+        );
+    }
+}

@@ -1,7 +1,7 @@
 //! From files to a scene that can be rendered without failing: describe → resolve → needs.
 
-pub mod describe;
 mod chance;
+pub mod describe;
 mod error;
 mod forms;
 mod lighting;

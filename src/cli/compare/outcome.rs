@@ -96,7 +96,7 @@ impl Outcome<'_> {
         let unsure = |variant: &comparison::Variant| variant.difference.as_ref().is_some_and(Difference::may_miss_much);
         if comparison.variants.iter().any(unsure) {
             show::warning(format_args!(
-                "more than half of an interval is light that no path may have found: {}",
+                "paths may have missed light that matters, which makes intervals wide: {}",
                 comparison.by_chance
             ));
         }

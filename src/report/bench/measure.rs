@@ -113,7 +113,9 @@ pub fn measure(view: &View, standard: &Standard, all: &[Measured], scale: Scale)
         time: (!measured.way.is_usual()).then(|| time(measured, usual)).flatten(),
         bias: match measured.way.is_usual() {
             true => standard.bias(view, usual),
-            false => most(usual).zip(most(measured)).map(|(a, b)| bias(&compare(view, &a.images, &b.images, &Unseen::NOTHING))),
+            false => most(usual)
+                .zip(most(measured))
+                .map(|(a, b)| bias(&compare(view, &a.images, &b.images, &Unseen::NOTHING))),
         },
         runs: runs(view, &image, &reference, measured, scale),
     };

@@ -167,7 +167,8 @@ impl Page<'_> {
     fn chance(&self) -> String {
         let way = &self.comparison.by_chance;
         let differences = self.comparison.variants.iter().filter_map(|variant| variant.difference.as_ref());
-        let most = differences.map(|difference| difference.missed).max_by(|a, b| a.delta_e2000.total_cmp(&b.delta_e2000));
+        let most =
+            differences.map(|difference| difference.missed).max_by(|a, b| a.delta_e2000.total_cmp(&b.delta_e2000));
         most.filter(|missed| missed.delta_e2000 > 0.0).map_or(String::new(), |missed| {
             format!(
                 "<p>Nothing aims at some of the light: {}. Paths may not have found it, so that intervals reach {} ΔE2000 and {} % of \

@@ -138,11 +138,9 @@ pub fn compare(view: &View, reference: &[Image], picture: &[Image], unseen: &Uns
 }
 
 impl Difference {
-    /// Whether more than half of an interval is what no path may have found.
+    /// Whether what no path may have found is more than a tenth of what was measured.
     pub fn may_miss_much(&self) -> bool {
-        let half = |[low, high]: [f64; 2]| 0.5 * (high - low);
-        self.missed.delta_e2000 > half(self.delta_e2000.interval_95)
-            || 2.0 * self.missed.energy > half(self.energy.interval_95)
+        self.missed.delta_e2000 > 0.1 * self.delta_e2000.mean
     }
 
     /// With intervals that hold the truth whatever no path has found; `colors` are the reference's, relative to display white.
