@@ -24,10 +24,11 @@ use glam::Vec3;
 /// after the emission that a ray finds did no better for the time, nor did letting all first scatterings go on.
 const ROULETTE: f32 = 4.5;
 
-/// From this depth on a path survives with at most [`LATE_SURVIVAL`], so that light caught by total reflection ends too. (64 and 0.95
-/// took no less time on clear solids, and a ball of flat glass in a furnace came out at 99.84 ± 0.02 instead of 99.995 ± 0.009.)
+/// From this depth on a path that loses nothing is ended by its length too ([`Path::late_survival`]).
 const LATE: u32 = 256;
-const LATE_SURVIVAL: f32 = 0.98;
+
+/// An interaction that leaves more than this share of the light loses nothing to speak of.
+const KEPT: f32 = 1.0 - 1.0 / 4096.0;
 
 /// A path on its way.
 #[derive(Clone, Copy, Debug)]
@@ -44,11 +45,22 @@ pub struct Path<const N: usize> {
     pub normal: Option<Vec3>,
     /// Surface interactions so far.
     pub depth: u32,
+    /// Largest throughput after the interaction before, from [`LATE`] on.
+    before: f32,
 }
 
 impl<const N: usize> Path<N> {
     pub fn new(ray: Ray, offset: u32, media: MediaStack) -> Self {
-        Self { ray, throughput: Lanes::ONE, offset, media, pdf: f32::INFINITY, normal: None, depth: 0 }
+        Self {
+            ray,
+            throughput: Lanes::ONE,
+            offset,
+            media,
+            pdf: f32::INFINITY,
+            normal: None,
+            depth: 0,
+            before: f32::INFINITY,
+        }
     }
 
     /// One lane, to go on alone.
@@ -61,14 +73,15 @@ impl<const N: usize> Path<N> {
             pdf: self.pdf,
             normal: self.normal,
             depth: self.depth,
+            before: self.before,
         }
     }
 
     /// Ends the path by chance, in the mean keeping what it carries. False when it has ended.
     #[inline(always)]
     pub fn survives(&mut self, sampler: &mut Sampler) -> bool {
-        let wanted = ROULETTE * self.throughput.max();
-        let survival = if self.depth < LATE { wanted.min(1.0) } else { wanted.min(LATE_SURVIVAL) };
+        let carried = self.throughput.max();
+        let survival = if self.depth < LATE { ROULETTE * carried } else { self.late_survival(carried) };
         if survival >= 1.0 {
             return true;
         }
@@ -78,6 +91,28 @@ impl<const N: usize> Path<N> {
             self.throughput *= 1.0 / survival;
         }
         survives
+    }
+
+    /// Returns the chance to survive of a path that has come far.
+    ///
+    /// Roulette by throughput ends what loses light, at a finite variance: if k interactions keep ρ
+    /// each, a path that carries ρᵏ in the mean is alive with a chance Q ≥ min(1, 4.5 ρᵏ), and the
+    /// second moment of what it carries, ρ²ᵏ/Q, is at most ρᵏ. It never ends what loses nothing, as
+    /// light that total reflection holds in clear glass. There Q falls as (256/k)², too, by
+    /// (k/(k + 1))² at each interaction: such paths have 512 of them in the mean, and the sum of
+    /// ρ²ᵏ k² is finite for every ρ below 1.
+    ///
+    /// A Q that falls as 0.98ᵏ has an infinite variance above ρ = √0.98: closed rooms of 0.998 came
+    /// out at 0.88 ± 0.09 of their light, with errors 8 times those told (2026-11). As 0.95ᵏ from
+    /// depth 64 on it darkened a ball of flat glass in a furnace to 99.84 ± 0.02 %.
+    #[cold]
+    fn late_survival(&mut self, carried: f32) -> f32 {
+        let depth = self.depth as f32;
+        let shorter = depth / (depth + 1.0);
+        let longest = if carried > KEPT * self.before { shorter * shorter } else { 1.0 };
+        let survival = (ROULETTE * carried).min(longest);
+        self.before = carried / survival;
+        survival
     }
 }
 
