@@ -22,7 +22,10 @@ use super::{ColorMatching, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Line, Spectrum, tristim
 /// Half the width that an emission line is given, nm. XYZ of FL2 with five mercury lines is then within 1e-6, of a laser on 532 nm,
 /// where x̄, ȳ and z̄ bend, within 3.2e-5; wider would shift colours in proportion, because they bend at every nm and a line on a
 /// bend is wrong by half its width times it.
-pub(super) const LINE_HALF_WIDTH_NM: f64 = 0.05;
+const LINE_HALF_WIDTH_NM: f64 = 0.05;
+
+/// Half the width of the narrowest box, nm: a line on an end of the range stands so far within it, where x̄, ȳ and z̄ are 6e-5 larger.
+const LEAST_HALF_WIDTH_NM: f64 = 5e-4;
 
 /// Strong lines get what is seen of them in multiples of this part of all wavelengths (so that each set of eight holds them as often), and
 /// all lines get at most so much.
@@ -53,11 +56,28 @@ pub struct Density {
     tanh_ends: (f64, f64),
 }
 
-/// The place of a line, nm, and its probability.
+/// The place of a line and its probability.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct LineBox {
-    nm: f64,
+    width: LineWidth,
     part: f64,
+}
+
+/// The wavelengths that a line is spread over, nm: centred on it, and narrower next to an end of the range, so that none of its light
+/// comes from elsewhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct LineWidth {
+    pub nm: f64,
+    pub half_width: f64,
+}
+
+impl LineWidth {
+    /// Of a line within the range.
+    pub fn of(nm: f64) -> Self {
+        let to_end = (nm - LAMBDA_MIN_NM).min(LAMBDA_MAX_NM - nm);
+        let half_width = to_end.clamp(LEAST_HALF_WIDTH_NM, LINE_HALF_WIDTH_NM);
+        Self { nm: nm.clamp(LAMBDA_MIN_NM + half_width, LAMBDA_MAX_NM - half_width), half_width }
+    }
 }
 
 /// A density that is straight between whole nanometres.
@@ -88,7 +108,8 @@ impl Density {
         let part = PART_OF_LIGHT * continuum / total;
         pdf.iter_mut().for_each(|value| *value *= part / continuum.max(f64::MIN_POSITIVE));
         let parts = parts_of_lines(&seen.iter().map(|seen| PART_OF_LIGHT * seen / total).collect::<Vec<_>>());
-        let boxes: Vec<_> = lines.iter().zip(parts).map(|(line, part)| LineBox { nm: line.nm, part }).collect();
+        let boxes: Vec<_> =
+            lines.iter().zip(parts).map(|(line, part)| LineBox { width: LineWidth::of(line.nm), part }).collect();
         let visible = 1.0 - part - boxes.iter().map(|line| line.part).sum::<f64>();
         let polygon = (part > 0.0).then(|| Polygon::new(pdf));
         Self { visible, polygon, boxes, ..Self::visible() }
@@ -108,8 +129,8 @@ impl Density {
         let (low, high) = self.tanh_ends;
         let visible = STEEPNESS * sech * sech / (high - low);
         let light = self.polygon.as_ref().map_or(0.0, |polygon| polygon.pdf(nm));
-        let here = self.boxes.iter().filter(|line| (nm - line.nm).abs() <= LINE_HALF_WIDTH_NM);
-        self.visible * visible + light + here.map(|line| line.part / (2.0 * LINE_HALF_WIDTH_NM)).sum::<f64>()
+        let here = self.boxes.iter().filter(|line| (nm - line.width.nm).abs() <= line.width.half_width);
+        self.visible * visible + light + here.map(|line| line.part / (2.0 * line.width.half_width)).sum::<f64>()
     }
 
     /// Probability of a shorter wavelength.
@@ -118,7 +139,8 @@ impl Density {
         let (low, high) = self.tanh_ends;
         let visible = (tanh(nm) - low) / (high - low);
         let light = self.polygon.as_ref().map_or(0.0, |polygon| polygon.cdf(nm));
-        let below = |line: &LineBox| ((nm - line.nm) / (2.0 * LINE_HALF_WIDTH_NM) + 0.5).clamp(0.0, 1.0) * line.part;
+        let share = |width: &LineWidth| ((nm - width.nm) / (2.0 * width.half_width) + 0.5).clamp(0.0, 1.0);
+        let below = |line: &LineBox| share(&line.width) * line.part;
         self.visible * visible + light + self.boxes.iter().map(below).sum::<f64>()
     }
 
@@ -149,9 +171,9 @@ impl Density {
     }
 }
 
-/// Lines whose boxes lie within the range; those in one place as one, sorted.
+/// Lines within the range; those in one place as one, sorted.
 fn lines_of(light: &Spectrum) -> Vec<Line> {
-    let inside = LAMBDA_MIN_NM + LINE_HALF_WIDTH_NM..=LAMBDA_MAX_NM - LINE_HALF_WIDTH_NM;
+    let inside = LAMBDA_MIN_NM..=LAMBDA_MAX_NM;
     let mut lines: Vec<Line> = light.lines().into_iter().filter(|line| inside.contains(&line.nm)).collect();
     lines.sort_by(|a, b| a.nm.total_cmp(&b.nm));
     lines.dedup_by(|line, kept| {

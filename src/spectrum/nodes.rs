@@ -9,7 +9,7 @@
 //!
 //! Emission lines are lines 0.1 nm wide, about what lamps have, where the density has boxes for them.
 
-use super::density::LINE_HALF_WIDTH_NM;
+use super::density::LineWidth;
 use super::{ColorMatching, Density, LAMBDA_MAX_NM, LAMBDA_MIN_NM, LANES, Line, Spectrum, Xyz};
 
 /// How many nodes there are: M.
@@ -128,7 +128,8 @@ impl Nodes {
 
     /// The nodes that a line's power goes to, with shares that sum to 1 and have the line as their mean.
     fn spread(&self, nm: f64) -> Vec<(usize, f64)> {
-        let (low, high) = (nm - LINE_HALF_WIDTH_NM, nm + LINE_HALF_WIDTH_NM);
+        let LineWidth { nm, half_width } = LineWidth::of(nm);
+        let (low, high) = (nm - half_width, nm + half_width);
         let first = self.edges_nm.partition_point(|&edge| edge <= low).saturating_sub(1);
         let end = self.edges_nm.partition_point(|&edge| edge < high).min(NODE_COUNT);
         let overlap = |i: usize| self.edges_nm[i + 1].min(high) - self.edges_nm[i].max(low);
@@ -172,6 +173,23 @@ mod tests {
                 let mass = density.cdf(nodes.edges_nm[i + 1]) - density.cdf(nodes.edges_nm[i]);
                 assert!((mass * NODE_COUNT as f64 - 1.0).abs() < 1e-6, "cell {i}: {mass}");
                 assert!(nodes.weight_nm(i) > 0.0);
+            }
+        }
+    }
+
+    /// A line counts what the observer sees of it, next to the ends of the range as anywhere, alone and beside a strong one.
+    #[test]
+    fn lines_at_the_ends_of_the_range_are_as_bright_as_elsewhere() {
+        let observer = super::super::Library::new(Vec::new()).observer(super::super::Observer::Cie1931).unwrap();
+        for nm in [360.0, 360.0002, 360.01, 360.03, 360.0499, 360.2, 829.8, 829.952, 829.99, 830.0] {
+            for strong in [0.0, 1e4] {
+                let lines = [Line { nm: 546.074, power: strong }, Line { nm, power: 1.0 }];
+                let density = Density::following(&Spectrum::Lines(lines.to_vec()), &observer);
+                let line = Spectrum::Lines(vec![lines[1]]);
+                let (found, expected) = (Nodes::new(&density).tristimulus(&line, &observer), observer.at(nm));
+                for (found, expected) in found.into_iter().zip(expected) {
+                    assert!((found - expected).abs() <= 1e-4 * expected, "{nm}: {found} for {expected}");
+                }
             }
         }
     }
