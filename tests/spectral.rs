@@ -190,3 +190,26 @@ fn errors_of_bands_do_not_repeat_from_pixel_to_pixel() {
         }
     }
 }
+
+/// Wavelengths go to lamps by their power, of which a tiny lamp has next to none: yet what is seen of it must fit the film.
+#[test]
+fn a_blinding_lamp_with_lines_of_its_own_beside_strong_ones_fits_the_film() {
+    let many: Vec<String> = (0..40).map(|i| format!("[{}, 1]", 420.1 + 6.3 * f64::from(i))).collect();
+    for (lines, samples) in
+        [("[532.2, 1]".to_owned(), 64), ("[546.1, 2], [611, 1]".to_owned(), 64), (many.join(", "), 256)]
+    {
+        let text = format!(
+            "render = {{ width = 8, height = 8, samples = {samples}, filter = \"box\" }}
+            camera = {{ position = [0, 0, 5], look_at = [0, 0, 0], up = [0, 1, 0], fov = 0.05 }}
+            [[objects]]\nshape.sphere = {{ radius = 0.01 }}
+            emission = {{ spectrum = {{ lines = [{lines}] }}, luminance = 9e10 }}
+            [[objects]]\nshape.rectangle = {{ size = [900, 900], center = [0, 0, 9], normal = [0, 0, -1] }}
+            emission = {{ spectrum = {{ lines = [[436, 1], [577, 2], [589.3, 4]] }}, luminance = 1e8 }}"
+        );
+        let film = common::film(&scene(&text, &Overrides::default()));
+        assert!(film.pixels().iter().all(|pixel| !pixel.overflowed()), "{lines}");
+        let luminance = common::mean(&film)[1];
+        println!("{luminance:.4e} of 9e10");
+        assert!((luminance / 9e10 - 1.0).abs() < 1e-3, "{lines}: {luminance:e}");
+    }
+}

@@ -1,6 +1,6 @@
 //! Samples of one pixel in a row: gathered in f64, exactly, before its wide sums are touched once for all of them.
 //!
-//! In the units of [`fixed`](super::fixed) a sample and its square are integers, of up to 89 and 98 bits below [`BRIGHT`]. Each is cut into a
+//! In the units of [`fixed`](super::fixed) a sample and its square are integers, of up to 89 and 90 bits below [`BRIGHT`]. Each is cut into a
 //! multiple of 2ᵏ and a rest of at most 2ᵏ⁻¹ (T. J. Dekker, "A floating-point technique for extending the available precision",
 //! Numerische Mathematik 18, 1971; here at a fixed place, by adding and subtracting 1.5 · 2ᵏ⁺⁵²). Of [`FULL`] samples the multiples sum
 //! to at most 2⁵³ · 2ᵏ and the rests to at most 2⁵³: no addition is rounded, and the pixel gets the bits that

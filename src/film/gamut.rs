@@ -117,8 +117,8 @@ impl GamutReport {
         );
         warn(
             self.overflow,
-            "pixel left the range of the film (5e11 cd/m² a sample) and is too dark",
-            "pixels left the range of the film (5e11 cd/m² a sample) and are too dark",
+            "pixel left the range of the film (9e12 cd/m² a sample) and is too dark",
+            "pixels left the range of the film (9e12 cd/m² a sample) and are too dark",
         );
         warn(self.unsampled, "pixel has no samples and is black", "pixels have no samples and are black");
         lines

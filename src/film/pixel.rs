@@ -85,7 +85,7 @@ impl Pixel {
         self.rejected
     }
 
-    /// Whether a sum left its range (|sample| ≥ 2³⁹ cd/m², Σx² ≥ 2⁸⁰, or 2³² − 1 samples): the mean is then too small
+    /// Whether a sum left its range (|sample| ≥ 2⁴³ cd/m², Σx² ≥ 2⁸⁸, or 2³² − 1 samples): the mean is then too small
     /// and the variance unknown. Development reports such pixels.
     pub fn overflowed(&self) -> bool {
         self.count == u32::MAX || self.squares.contains(&u128::MAX)

@@ -64,6 +64,14 @@ impl Spectrum {
         }
     }
 
+    /// The factor that [`Self::unscaled`] leaves out.
+    pub fn factor(&self) -> f64 {
+        match self {
+            Self::Scaled { factor, .. } => *factor,
+            _ => 1.0,
+        }
+    }
+
     /// The absorption coefficient of an extinction coefficient: α = 4πk/λ, m⁻¹ and natural base; at every nanometre of the
     /// visible and at every breakpoint, linear between.
     pub fn absorption_from_k(&self) -> Self {

@@ -7,12 +7,13 @@ use crate::scene::SceneError;
 use crate::scene::describe::{self, LightSpectrum, OwnLight};
 use crate::scene::numbers::Numbers;
 use crate::spectrum::{
-    Daylight, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Line, Outside, Spectrum, SpectrumId, Table, integrate, luminance,
+    Daylight, LAMBDA_MAX_NM, LAMBDA_MIN_NM, LUMENS_PER_WATT, Line, Outside, Spectrum, SpectrumId, Table, Xyz,
+    integrate, luminance, tristimulus,
 };
 use std::ops::Range;
 use toml::Spanned;
 
-/// cd/m². Single samples of a light with few wavelengths are brighter, and the film counts them up to 5e11.
+/// cd/m², of X, Y and Z alike. Single samples of a light with few wavelengths are brighter, and the film counts them up to 9e12.
 pub const BRIGHTEST: f64 = 1e11;
 
 /// Mean diameter of the sun from the earth, degrees.
@@ -111,14 +112,28 @@ impl Resolver<'_> {
         unit: &str,
     ) -> Result<Resolved, SceneError> {
         let spectrum = spectrum.scaled(factor);
-        let luminance = luminance(&spectrum, &self.observer_1931);
+        let xyz = tristimulus(&[&spectrum], &self.observer_1931).map(|value| LUMENS_PER_WATT * value);
+        self.check_luminance(xyz, span, unit)?;
+        let luminance = xyz[1];
+        Ok(Resolved { id: self.spectra.add(spectrum), luminance })
+    }
+
+    fn check_luminance(&self, xyz: Xyz, span: &Range<usize>, unit: &str) -> Result<(), SceneError> {
+        let [_, luminance, _] = xyz;
         if !(0.0..=BRIGHTEST).contains(&luminance) {
             let message = format!(
                 "this light has {luminance:.2e} {unit}: it can have up to {BRIGHTEST:e} (the sun's disc has 1.6e9 cd/m²)"
             );
             return Err(self.text.error(span, message));
         }
-        Ok(Resolved { id: self.spectra.add(spectrum), luminance })
+        let largest = xyz.into_iter().fold(0.0, f64::max);
+        if largest > BRIGHTEST {
+            let message = format!(
+                "this light has {luminance:.2e} {unit}, and X or Z of {largest:.2e} in the same measure: each can be up to {BRIGHTEST:e}"
+            );
+            return Err(self.text.error(span, message));
+        }
+        Ok(())
     }
 
     /// The spectrum, and whether its values are already radiance.

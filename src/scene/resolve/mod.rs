@@ -16,6 +16,7 @@ mod substitutes;
 mod surroundings;
 mod view;
 
+pub(super) use emission::BRIGHTEST;
 pub use settings::Overrides;
 
 use super::describe::{self, SceneFile};
