@@ -6,5 +6,6 @@ mod common;
 mod statistics;
 
 mod choice;
+mod copies;
 mod lamps;
 mod light;

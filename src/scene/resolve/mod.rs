@@ -62,6 +62,7 @@ pub fn resolve(text: Text, library: &Library, overrides: &Overrides) -> Result<S
         by_name: BTreeMap::new(),
         white_candidates: Vec::new(),
         data: Vec::new(),
+        noted: BTreeSet::new(),
         warnings: Vec::new(),
         sources: Vec::new(),
         meshes: BTreeMap::new(),
@@ -91,6 +92,8 @@ struct Resolver<'a> {
     /// Lights by how much they matter for what is white.
     white_candidates: Vec<(f64, SpectrumId)>,
     data: Vec<DataSet>,
+    /// Users and names of `data`.
+    noted: BTreeSet<(String, String)>,
     warnings: Vec<String>,
     sources: Vec<Text>,
     meshes: Meshes,

@@ -1,6 +1,7 @@
 //! Objects: each a shape of a material, some of them lights.
 
 use super::Resolver;
+use super::emission::Resolved;
 use super::shapes::affine;
 use crate::geometry::{Shape, ShapeId};
 use crate::light::{Emitter, Source};
@@ -37,12 +38,15 @@ impl Resolver<'_> {
         for (index, described) in described.iter().enumerate() {
             let object = described.get_ref();
             let name = object.name.clone().unwrap_or_else(|| format!("object {}", index + 1));
+            // Once for all pieces and copies: each integral over a light's spectrum takes 0.3 ms.
+            let emission = object.emission.as_ref();
+            let light = emission.map(|emission| self.emission(emission.get_ref(), &name)).transpose()?;
             for piece in self.pieces_of(object, &name)? {
                 let named = piece.material.as_deref().filter(|_| object.material.is_none());
                 let replacement = named.and_then(|named| replace.get_key_value(named));
                 replaced.extend(replacement.map(|(name, _)| name.get_ref().as_str()));
                 let material = object.material.as_ref().or(replacement.map(|(_, material)| material));
-                self.object(&mut all, described, piece, material)?;
+                self.object(&mut all, described, piece, material, light.as_ref())?;
             }
         }
         let unused = replace.keys().filter(|name| !replaced.contains(name.get_ref().as_str()));
@@ -95,6 +99,7 @@ impl Resolver<'_> {
         described: &Spanned<describe::Object>,
         piece: Piece,
         material: Option<&Spanned<String>>,
+        light: Option<&Resolved>,
     ) -> Result<(), SceneError> {
         let object = described.get_ref();
         let Piece { name, shape, material: named } = piece;
@@ -110,9 +115,9 @@ impl Resolver<'_> {
             self.check_dielectric(object, &shape, &name)?;
         }
         self.check_coordinates(object, surface, &shape, &name)?;
-        if let Some(emission) = &object.emission {
+        if let (Some(emission), Some(light)) = (&object.emission, light) {
             let id = ShapeId(all.shapes.len() as u32);
-            all.emitters.push(self.emitter(emission.get_ref(), &name, id, &shape)?);
+            all.emitters.push(self.emitter(emission.get_ref(), light, &name, id, &shape)?);
         }
         let material = material.map_or("light", |material| material.get_ref()).to_owned();
         let priority = object.priority;
@@ -155,11 +160,11 @@ impl Resolver<'_> {
     fn emitter(
         &mut self,
         emission: &describe::Emission,
+        light: &Resolved,
         name: &str,
         id: ShapeId,
         shape: &Shape,
     ) -> Result<Emitter, SceneError> {
-        let light = self.emission(emission, name)?;
         let two_sided = emission.two_sided;
         if let Shape::Mesh(placed) = shape
             && placed.mesh().was_inside_out()

@@ -18,7 +18,7 @@ impl Resolver<'_> {
 
     /// Remembers where a value comes from, and warns where its data do not reach.
     pub fn note_data(&mut self, used_by: &str, about: &About) {
-        if self.data.iter().any(|data| data.used_by == used_by && data.about.name == about.name) {
+        if !self.noted.insert((used_by.to_owned(), about.name.clone())) {
             return;
         }
         let missing = about.range_nm.map_or(0.0, |range| share_outside(&self.observer_1931, range));
