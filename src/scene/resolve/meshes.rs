@@ -1,12 +1,13 @@
 //! Mesh files: each read once, however many objects show it.
 
 use super::Resolver;
+use super::place::place;
 use crate::geometry::loaders::{self, FileCamera, MeshFile};
 use crate::geometry::{Mesh, Placed};
 use crate::scene::describe;
 use crate::scene::{SceneError, listed};
 use crate::spectrum::nearest;
-use glam::Affine3A;
+use glam::{Affine3A, DVec3};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -37,8 +38,8 @@ pub struct Piece {
 }
 
 impl Resolver<'_> {
-    /// The pieces of a mesh file that an object shows, where the file has them.
-    pub fn pieces(&mut self, described: &describe::MeshFile) -> Result<Vec<Piece>, SceneError> {
+    /// The pieces of a mesh file that an object shows, where the file has them, as seen from an origin.
+    pub fn pieces(&mut self, described: &describe::MeshFile, origin: DVec3) -> Result<Vec<Piece>, SceneError> {
         let crease = described.crease_angle.as_ref().map(|angle| self.crease(angle)).transpose()?;
         let loaded = self.loaded(&described.file, crease)?;
         let wanted = described.part.as_ref();
@@ -49,7 +50,8 @@ impl Resolver<'_> {
                 continue;
             }
             let transform = placement.transform;
-            let affine = Affine3A::from_mat3_translation(transform.matrix3.as_mat3(), transform.translation.as_vec3());
+            let translation = place(transform.translation.to_array(), origin);
+            let affine = Affine3A::from_mat3_translation(transform.matrix3.as_mat3(), translation);
             let there = Placed::new(loaded.meshes[placement.part].clone());
             let placed = match affine == Affine3A::IDENTITY {
                 true => there,

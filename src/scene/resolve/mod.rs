@@ -7,6 +7,7 @@ mod meshes;
 mod objects;
 mod patterns;
 mod picture;
+mod place;
 mod points;
 mod provenance;
 mod settings;
@@ -28,6 +29,7 @@ use crate::spectrum::{Arena, ColorMatching, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Librar
 use glam::{DVec3, Vec3};
 use meshes::Meshes;
 use objects::Objects;
+use place::Rounded;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::path::PathBuf;
@@ -54,6 +56,8 @@ pub fn resolve(text: Text, library: &Library, overrides: &Overrides) -> Result<S
         substitutes: Substitutes::new(overrides)?,
         used_materials: BTreeSet::new(),
         outside_name: None,
+        origin: place::origin(file.camera.get_ref()),
+        rounded: Vec::new(),
         observer_1931,
         spectra: Arena::default(),
         surfaces: Vec::new(),
@@ -83,6 +87,9 @@ struct Resolver<'a> {
     used_materials: BTreeSet<String>,
     /// The material that is around everything.
     outside_name: Option<String>,
+    /// What all places are measured from.
+    origin: DVec3,
+    rounded: Vec<Rounded>,
     observer_1931: Arc<ColorMatching>,
     spectra: Arena,
     surfaces: Vec<Surface>,
@@ -130,6 +137,7 @@ impl Resolver<'_> {
         let lights = Lights::new(emitters, environment, &world);
         self.warn_of_lost_light(!file.points.is_empty(), file.environment.is_some() || !file.suns.is_empty());
         self.warn_of_darkness();
+        self.warn_of_rounding();
         self.warn_of_unused_materials();
         self.sources.insert(0, self.text.clone());
         let rgb = self.rgb_colors()?;

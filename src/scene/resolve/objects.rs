@@ -7,6 +7,7 @@ use crate::geometry::{Shape, ShapeId};
 use crate::light::{Emitter, Source};
 use crate::scene::describe;
 use crate::scene::{Inside, Object, SceneError, Surface};
+use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 use toml::Spanned;
 
@@ -58,11 +59,12 @@ impl Resolver<'_> {
 
     /// The shapes of an object: one, or as many as its file and its copies make.
     fn pieces_of(&mut self, object: &describe::Object, name: &str) -> Result<Vec<Piece>, SceneError> {
+        let [of_shape, of_transform, of_copies] = self.origins(object);
         let mut pieces = self
-            .shape(object)?
+            .shape(object, of_shape)?
             .map_or_else(Vec::new, |shape| vec![Piece { name: name.to_owned(), shape, material: None }]);
         if let describe::Shape::Mesh(file) = object.shape.get_ref() {
-            let found = self.pieces(file)?;
+            let found = self.pieces(file, of_shape)?;
             let alone = found.len() == 1;
             let full = |part: String| if alone || part == name { name.to_owned() } else { format!("{name}: {part}") };
             pieces.extend(found.into_iter().map(|piece| Piece {
@@ -71,8 +73,9 @@ impl Resolver<'_> {
                 material: piece.material,
             }));
         }
+        pieces.iter().for_each(|piece| self.note_rounding(&piece.name, &piece.shape));
         if let Some(transform) = &object.transform {
-            pieces = pieces.iter().map(|piece| self.moved(piece, transform)).collect::<Result<_, _>>()?;
+            pieces = pieces.iter().map(|piece| self.moved(piece, transform, of_transform)).collect::<Result<_, _>>()?;
         }
         if object.copies.is_empty() {
             return Ok(pieces);
@@ -80,16 +83,23 @@ impl Resolver<'_> {
         let mut copies = Vec::with_capacity(pieces.len() * object.copies.len());
         for (number, place) in (1..).zip(&object.copies) {
             for piece in &pieces {
-                let copy = self.moved(piece, place)?;
+                let copy = self.moved(piece, place, of_copies)?;
                 copies.push(Piece { name: format!("{} #{number}", piece.name), ..copy });
             }
         }
         Ok(copies)
     }
 
-    fn moved(&self, piece: &Piece, transform: &Spanned<describe::Transform>) -> Result<Piece, SceneError> {
-        let affine = affine(transform.get_ref());
+    /// A piece somewhere else, as seen from an origin.
+    fn moved(
+        &mut self,
+        piece: &Piece,
+        transform: &Spanned<describe::Transform>,
+        origin: DVec3,
+    ) -> Result<Piece, SceneError> {
+        let affine = affine(transform.get_ref(), origin);
         let shape = piece.shape.transformed(&affine).map_err(|error| self.text.error(&transform.span(), error))?;
+        self.note_rounding(&piece.name, &shape);
         Ok(Piece { name: piece.name.clone(), shape, material: piece.material.clone() })
     }
 

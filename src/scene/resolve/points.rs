@@ -1,6 +1,7 @@
 //! Point lights: intensity or flux, and a cone.
 
-use super::{Resolver, vector};
+use super::Resolver;
+use super::place::place;
 use crate::light::{Cone, Emitter, Point, Source};
 use crate::scene::SceneError;
 use crate::scene::describe;
@@ -14,7 +15,8 @@ impl Resolver<'_> {
                 self.text.error(&span, "light from a point fades with metres, so the scene must say how large it is");
             return Err(error.help("add `meters_per_unit = …` at the top, 0.001 if the scene is in millimetres"));
         };
-        let light = Point::new(vector(described.position.get_ref().values()), metres, self.cone(described)?);
+        let light =
+            Point::new(place(described.position.get_ref().values(), self.origin), metres, self.cone(described)?);
         let (spectrum, _) = self.light_spectrum(described.spectrum.get_ref(), &span, "a point light")?;
         let candela = match (&described.luminous_intensity, &described.luminous_flux) {
             (Some(candela), None) => self.not_negative(candela, "luminous_intensity")?,

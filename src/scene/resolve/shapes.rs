@@ -1,17 +1,18 @@
 //! Shapes: sizes checked, placed in the world.
 
+use super::place::place;
 use super::{Resolver, vector};
 use crate::geometry::{Brilliant, Convex, Disk, GeometryError, Plane, Rectangle, Shape, Sphere, StepCut};
 use crate::scene::SceneError;
 use crate::scene::describe;
-use crate::scene::numbers::{Finite, Length};
+use crate::scene::numbers::{Finite, Length, Numbers};
 use glam::{Affine3A, DMat3, DVec3, Vec3};
 use toml::Spanned;
 
 impl Resolver<'_> {
-    /// The shape of an object where it is made; none for a mesh, which is loaded.
-    pub fn shape(&self, object: &describe::Object) -> Result<Option<Shape>, SceneError> {
-        build(object.shape.get_ref()).map_err(|error| self.misshapen(error, &object.shape))
+    /// The shape of an object where it is made, as seen from an origin; none for a mesh, which is loaded.
+    pub fn shape(&self, object: &describe::Object, origin: DVec3) -> Result<Option<Shape>, SceneError> {
+        build(object.shape.get_ref(), origin).map_err(|error| self.misshapen(error, &object.shape))
     }
 
     fn misshapen(&self, error: GeometryError, shape: &Spanned<describe::Shape>) -> SceneError {
@@ -24,31 +25,39 @@ impl Resolver<'_> {
     }
 }
 
-fn build(shape: &describe::Shape) -> Result<Option<Shape>, GeometryError> {
+fn build(shape: &describe::Shape, origin: DVec3) -> Result<Option<Shape>, GeometryError> {
+    let at = |center: Numbers<3>| place(center.values(), origin);
     Ok(Some(match shape {
-        describe::Shape::Sphere(sphere) => {
-            Shape::Sphere(Sphere::new(vector(sphere.center.values()), sphere.radius.0 as f32)?)
-        }
+        describe::Shape::Sphere(sphere) => Shape::Sphere(Sphere::new(at(sphere.center), sphere.radius.0 as f32)?),
         describe::Shape::Rectangle(rectangle) => {
             let [u, v] = edges(rectangle.normal.values())?;
             let [width, height] = rectangle.size.values().map(|side| side as f32);
-            Shape::Rectangle(Rectangle::new(vector(rectangle.center.values()), u * width, v * height)?)
+            Shape::Rectangle(Rectangle::new(at(rectangle.center), u * width, v * height)?)
         }
         describe::Shape::Disk(disk) => {
-            let [center, normal] = [disk.center, disk.normal].map(|v| vector(v.values()));
-            Shape::Disk(Disk::facing(center, normal, disk.radius.0 as f32)?)
+            let normal = vector(disk.normal.values());
+            Shape::Disk(Disk::facing(at(disk.center), normal, disk.radius.0 as f32)?)
         }
-        describe::Shape::Box(cuboid) => {
-            Convex::cuboid(vector(cuboid.center.values()), vector(cuboid.size.values()) / 2.0)?.into()
-        }
+        describe::Shape::Box(cuboid) => Convex::cuboid(at(cuboid.center), vector(cuboid.size.values()) / 2.0)?.into(),
         describe::Shape::Convex(convex) => {
-            let planes: Vec<_> = convex.planes.iter().map(|plane| half_space(plane.get_ref().values())).collect();
+            let planes: Vec<_> =
+                convex.planes.iter().map(|plane| half_space(plane.get_ref().values(), origin)).collect();
             Convex::from_planes(&planes)?.into()
         }
-        describe::Shape::Brilliant(cut) => brilliant(cut).solid()?.into(),
-        describe::Shape::StepCut(cut) => step_cut(cut).solid()?.into(),
+        describe::Shape::Brilliant(cut) => moved(brilliant(cut).solid()?, origin)?,
+        describe::Shape::StepCut(cut) => moved(step_cut(cut).solid()?, origin)?,
         describe::Shape::Mesh(_) => return Ok(None),
     }))
+}
+
+/// A solid made around the zero of its coordinates, as seen from an origin.
+fn moved(solid: Convex, origin: DVec3) -> Result<Shape, GeometryError> {
+    let solid = if origin == DVec3::ZERO {
+        solid
+    } else {
+        solid.transformed(&Affine3A::from_translation(-origin.as_vec3()))?
+    };
+    Ok(solid.into())
 }
 
 /// Two unit vectors that span the plane of a rectangle; its front faces the normal, its width stays level.
@@ -60,7 +69,8 @@ fn edges(normal: [f64; 3]) -> Result<[Vec3; 2], GeometryError> {
     Ok([u.as_vec3(), normal.cross(u).as_vec3()])
 }
 
-pub fn affine(transform: &describe::Transform) -> Affine3A {
+/// A transform, as seen from an origin.
+pub fn affine(transform: &describe::Transform, origin: DVec3) -> Affine3A {
     let scale = transform.scale.as_ref().map_or([1.0; 3], |scale| scale.get_ref().0.values());
     let [(sx, cx), (sy, cy), (sz, cz)] =
         transform.rotate.unwrap_or_default().values().map(|degrees| libm::sincos(degrees.to_radians()));
@@ -69,11 +79,12 @@ pub fn affine(transform: &describe::Transform) -> Affine3A {
     let about_y = DMat3::from_cols(DVec3::new(cy, 0.0, -sy), DVec3::Y, DVec3::new(sy, 0.0, cy));
     let about_z = DMat3::from_cols(DVec3::new(cz, sz, 0.0), DVec3::new(-sz, cz, 0.0), DVec3::Z);
     let matrix = about_z * about_y * about_x * DMat3::from_diagonal(DVec3::from_array(scale));
-    Affine3A::from_mat3_translation(matrix.as_mat3(), vector(transform.translate.unwrap_or_default().values()))
+    Affine3A::from_mat3_translation(matrix.as_mat3(), place(transform.translate.unwrap_or_default().values(), origin))
 }
 
-fn half_space([x, y, z, offset]: [f64; 4]) -> Plane {
-    Plane::new(DVec3::new(x, y, z), offset)
+fn half_space([x, y, z, offset]: [f64; 4], origin: DVec3) -> Plane {
+    let normal = DVec3::new(x, y, z);
+    Plane::new(normal, offset - normal.dot(origin))
 }
 
 /// A proportion, or the usual one.

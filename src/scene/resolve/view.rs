@@ -1,5 +1,6 @@
 //! Where the camera stands and looks: by the scene, or by a camera of a mesh file.
 
+use super::place::place;
 use super::{Resolver, vector};
 use crate::geometry::loaders::{FileCamera, Projection};
 use crate::scene::SceneError;
@@ -30,8 +31,8 @@ impl Resolver<'_> {
         if let (None, Some(named)) = (&from_file, &camera.named) {
             return Err(self.text.error(&named.span(), "`named` goes with `file`: it names one of the file's cameras"));
         }
-        let place = |own: &Option<Vector>| own.as_ref().map_or(described.span(), Spanned::span);
-        let given = |own: &Option<Vector>| own.as_ref().map(|v| vector(v.get_ref().values()));
+        let span = |own: &Option<Vector>| own.as_ref().map_or(described.span(), Spanned::span);
+        let given = |own: &Option<Vector>| own.as_ref().map(|at| place(at.get_ref().values(), self.origin));
         let own = |value: Option<Vec3>, name: &str| {
             value.ok_or_else(|| {
                 let error = self.text.error(&described.span(), format!("missing `{name}`"));
@@ -39,15 +40,16 @@ impl Resolver<'_> {
             })
         };
         let filed = |of: fn(&FileCamera) -> DVec3| from_file.as_ref().map(|camera| of(camera).as_vec3());
-        let position = own(given(&camera.position).or(filed(|camera| camera.position)), "position")?;
+        let filed_position = from_file.as_ref().map(|camera| place(camera.position.to_array(), self.origin));
+        let position = own(given(&camera.position).or(filed_position), "position")?;
         let ahead = filed(|camera| camera.direction).map(|direction| position + direction * depth(position));
         Ok(View {
             position,
             look_at: own(given(&camera.look_at).or(ahead), "look_at")?,
-            up: given(&camera.up).or(filed(|camera| camera.up)).unwrap_or(UP),
+            up: camera.up.as_ref().map(|up| vector(up.get_ref().values())).or(filed(|camera| camera.up)).unwrap_or(UP),
             projection: from_file.as_ref().map(|camera| camera.projection),
-            position_at: place(&camera.position),
-            look_at_at: place(&camera.look_at),
+            position_at: span(&camera.position),
+            look_at_at: span(&camera.look_at),
         })
     }
 
