@@ -18,7 +18,7 @@ const EXAMPLES: &[(&str, &str)] = &[
     ("Scene file", "meters_per_unit = 0.001    # millimetres\noutside = \"water\""),
     (
         "Render",
-        "[render]\nwidth = 1200\nheight = 800\nsamples = 256\nseed = 3\nmax_depth = 40\nfilter = \"blackman-harris\"\nsampler = \"sobol\"\nfresnel = \"schlick\"",
+        "[render]\nwidth = 1200\nheight = 800\nsamples = 256\nseed = 3\nmax_depth = 40\nfilter = \"tent\"\nsampler = \"sobol\"\nfresnel = \"schlick\"",
     ),
     (
         "Camera",

@@ -102,6 +102,7 @@ fn crop(given: Option<[u32; 4]>, [width, height]: [u32; 2]) -> Result<[u32; 4], 
 pub fn filter(name: FilterName) -> Filter {
     match name {
         FilterName::Box => Filter::Box,
+        FilterName::Tent => Filter::Tent,
         FilterName::BlackmanHarris => Filter::blackman_harris(),
     }
 }
