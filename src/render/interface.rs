@@ -37,7 +37,7 @@ impl<const P: u32> Tracer<'_, P> {
             let interface = self.boundary_at(interface, &next);
             let rank = self.scene.object(next.shape).rank;
             let entering = next.side == Side::Outside;
-            boundary.media = boundary.media.across(Filling { rank, medium: interface.medium }, entering);
+            boundary.media = boundary.media.across(Filling { rank, medium: interface.medium }, entering, &self.buried);
             if rank > boundary.rank {
                 boundary.interface = interface;
                 boundary.rank = rank;
@@ -67,7 +67,7 @@ impl<const P: u32> Tracer<'_, P> {
         while also.len() < MOST && self.scene.world.is_at_origin(&path.ray, &hit) {
             let Surface::Dielectric(interface) = self.surface(&hit) else { break };
             let solid = Filling { rank: self.scene.object(hit.shape).rank, medium: interface.medium };
-            if path.media.across(solid, hit.side == Side::Outside) != path.media {
+            if path.media.across(solid, hit.side == Side::Outside, &self.buried) != path.media {
                 break;
             }
             also.push(hit.departure(hit.side.opposite()));
@@ -89,7 +89,7 @@ impl<const P: u32> Tracer<'_, P> {
     ) -> Outcome {
         let rank = self.scene.object(hit.shape).rank;
         let solid = Filling { rank, medium: interface.medium };
-        let media = path.media.across(solid, hit.side == Side::Outside);
+        let media = path.media.across(solid, hit.side == Side::Outside, &self.buried);
         if self.touches(hit) {
             let boundary = Boundary { interface: *interface, rank, media, far: *hit };
             return self.cross_together(boundary, path, (hit, also), sampler, radiance);
@@ -210,7 +210,7 @@ impl<const P: u32> Tracer<'_, P> {
         rays::count(N as u64 * u64::from(path.depth - entered));
         let Some(exits) = exits else { return Outcome::Ended };
         let rank = self.scene.object(entry.hit.shape).rank;
-        path.media = path.media.across(Filling { rank, medium: entry.interface.medium }, false);
+        path.media = path.media.across(Filling { rank, medium: entry.interface.medium }, false, &self.buried);
         // The entry's facet: of a convex solid left outwards nobody asks which.
         let departs = entry.hit.departure(Side::Outside);
         let ray = |lane| Ray { origin: exits.origins.get(lane), direction: exits.directions.get(lane), departs };

@@ -34,7 +34,7 @@ use crate::sampler::{self, PixelSamples, Sampler};
 use crate::scene::describe::SamplerName;
 use crate::scene::{Needs, Physics, Scene};
 use crate::spectrum::{Lanes, Nodes, SpectrumId, Tables};
-use media::MediaStack;
+use media::{Buried, MediaStack};
 use models::RgbCurves;
 use path::Path;
 use rayon::prelude::*;
@@ -69,6 +69,8 @@ pub struct Kernel<'a> {
     /// X, Y and Z in cd/m² per spectral radiance.
     observer: [SpectrumId; 3],
     around_camera: MediaStack,
+    /// What paths that are deep inside of solids do not carry themselves.
+    buried: Buried,
     max_depth: u32,
     sampler: sampler::Kind,
     rgb: Option<RgbCurves<'a>>,
@@ -94,8 +96,9 @@ impl<'a> Kernel<'a> {
             SamplerName::Sobol => sampler::Kind::Sobol,
             SamplerName::Independent => sampler::Kind::Independent,
         };
-        let around_camera =
-            scene.around_camera.iter().fold(MediaStack::OUTSIDE, |media, &solid| media.across(solid, true));
+        let buried = Buried::default();
+        let enter = |media: MediaStack, &solid| media.across(solid, true, &buried);
+        let around_camera = scene.around_camera.iter().fold(MediaStack::OUTSIDE, enter);
         Self {
             scene,
             needs,
@@ -103,6 +106,7 @@ impl<'a> Kernel<'a> {
             tables,
             observer,
             around_camera,
+            buried,
             max_depth: scene.settings.max_depth.unwrap_or(u32::MAX),
             sampler,
             rgb: RgbCurves::new(scene),

@@ -86,7 +86,7 @@ pub struct Object {
 }
 
 /// A solid as a path knows it that is inside of it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Filling {
     /// [`Object::rank`].
     pub rank: u32,

@@ -1,0 +1,69 @@
+//! Solids within solids within solids: any number of shells around a point, against a pile of plates worked out on paper.
+
+mod common;
+
+use common::plates::{Layer, check, half_sky, looking, pile, seen};
+use common::{lanes::with, scene};
+use glam::DVec3;
+
+/// Half the height of a shell's walls above each other.
+const WALL: f64 = 0.25;
+
+/// Index and absorption of a shell, from the outermost.
+fn matter(shell: usize) -> (f64, f64) {
+    ([1.5, 1.2, 1.35][shell % 3], 0.05 + 0.1 * (shell % 4) as f64)
+}
+
+/// So many boxes in each other, in an order of their own, and what they are made of.
+fn shells(count: usize) -> String {
+    let mut text = String::new();
+    for shell in 0..count {
+        let (n, absorption) = matter(shell);
+        text += &format!("materials.m{shell}.dielectric = {{ ior = {n}, absorption = {absorption} }}\n");
+    }
+    for shell in (0..count).map(|i| i * 7 % count) {
+        let (width, height) = (400.0 - shell as f64, 2.0 * WALL * (count - shell) as f64);
+        text +=
+            &format!("[[objects]]\nmaterial = \"m{shell}\"\nshape.box = {{ size = [{width}, {width}, {height}] }}\n");
+    }
+    text
+}
+
+/// The walls that light crosses on its way in, the innermost last.
+fn walls(count: usize) -> Vec<Layer> {
+    (0..count).map(matter).map(|(n, absorption)| (n, absorption, WALL)).collect()
+}
+
+/// The light through all of them, as it would be if shells beyond a number were forgotten on the way out.
+fn through(count: usize, kept: usize, cos: f64) -> f64 {
+    let way_in = walls(count);
+    let way_out = way_in.iter().rev().map(|&(n, a, d)| (n, a, d)).enumerate();
+    let way_out: Vec<Layer> = way_out.map(|(i, layer)| if i < kept { layer } else { (1.0, 0.0, 1.0) }).collect();
+    100.0 * cos * pile(1.0, &[way_in, way_out].concat(), 1.0, cos).t
+}
+
+#[test]
+fn no_shell_is_forgotten_however_many_there_are() {
+    for count in [8, 9, 12, 23] {
+        for cos in [1.0, 0.6] {
+            let top = WALL * count as f64 * DVec3::Z;
+            let text = seen(top, cos, 1) + &half_sky("\"E\"", false) + &shells(count);
+            let wrong: &[f64] = if count > 8 { &[through(count, 8, cos)] } else { &[] };
+            let name = format!("{count} shells, cos {cos}");
+            check(&name, &mut scene(&text, &with(8, 48)), through(count, count, cos), wrong);
+        }
+    }
+}
+
+#[test]
+fn a_camera_within_all_of_them_knows_all_of_them() {
+    for count in [8, 12, 23] {
+        let text = looking(DVec3::ZERO, -DVec3::Z, 1) + &half_sky("\"E\"", false) + &shells(count);
+        let way_out: Vec<Layer> = walls(count).into_iter().rev().collect();
+        let (n, ..) = way_out[0];
+        // The other half of the shells throws light back, whose pile is the same seen from the middle.
+        let half = pile(n, &way_out, 1.0, 1.0);
+        let right = n * n * 100.0 * half.t / (1.0 - half.r * half.r);
+        check(&format!("from within {count}"), &mut scene(&text, &with(8, 48)), right, &[right / n / n]);
+    }
+}
