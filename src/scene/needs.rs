@@ -33,7 +33,7 @@ pub struct Decision {
 impl Needs {
     pub fn of(scene: &Scene) -> Self {
         let (wavelength_density, wavelengths) = lighting::wavelengths(scene);
-        let (chance, by_chance) = chance::of(scene);
+        let (chance, by_chance) = chance::of(scene, &wavelength_density);
         let decisions = vec![
             wavelengths,
             dispersion(scene),

@@ -216,7 +216,7 @@ fn deciding_samples_bias_nothing() {
         let off = |(mean, error): (f64, f64)| {
             (100.0 * (mean / truth.0 - 1.0), (mean - truth.0) / (error * error + truth.1 * truth.1).sqrt())
         };
-        let deciding = off(brightness((0..200).map(|seed| stopped(case, seed, target, false).0)));
+        let deciding = off(brightness((0..600).map(|seed| stopped(case, seed, target, false).0)));
         let selfish = off(brightness((0..200).map(|seed| selfish(case, seed, target))));
         println!(
             "{name}, {}={bound}: {:+.2} %, {:.1} standard errors; by their own {:+.2} %, {:.1}",
