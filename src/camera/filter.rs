@@ -88,6 +88,15 @@ impl Filter {
         Self::BlackmanHarris(Inverse::new())
     }
 
+    /// How far beyond a pixel's edge its points lie at most, in pixels.
+    pub fn overhang(&self) -> f32 {
+        match self {
+            Self::Box => 0.0,
+            Self::Tent => 0.5,
+            Self::BlackmanHarris(_) => RADIUS as f32 - 0.5,
+        }
+    }
+
     /// A point around the pixel's centre, in pixels, from two uniform numbers.
     #[inline]
     pub fn sample(&self, [u, v]: [f32; 2]) -> [f32; 2] {

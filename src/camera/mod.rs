@@ -6,7 +6,7 @@ mod filter;
 pub use aperture::Aperture;
 pub use filter::Filter;
 
-use crate::geometry::{Bounds, Ray};
+use crate::geometry::{Bounds, Ray, Rectangle};
 use glam::{DVec3, Vec3};
 use thiserror::Error;
 
@@ -187,6 +187,20 @@ impl Camera {
         libm::atan(libm::hypot(x, y)) + libm::atan(slant)
     }
 
+    /// Where the rays of a picture of so many pixels begin, if not all in one point: the opening,
+    /// with the square around it, or for parallel rays the picture and what the filter adds to it
+    /// on each side.
+    pub fn origins(&self, [width, height]: [u32; 2], overhang: f32) -> Option<Rectangle> {
+        let edges = match (self.parallel, &self.aperture) {
+            (true, _) => {
+                [self.step_x * (width as f32 + 2.0 * overhang), self.step_y * (height as f32 + 2.0 * overhang)]
+            }
+            (false, Some(aperture)) => [self.right, self.down].map(|axis| axis * (2.0 * aperture.radius)),
+            (false, None) => return None,
+        };
+        Rectangle::new(self.position, edges[0], edges[1]).ok()
+    }
+
     /// How far in front of the camera a point is, along the direction of view.
     pub fn depth(&self, point: Vec3) -> f32 {
         (point - self.position).dot(self.forward)
@@ -259,6 +273,21 @@ mod tests {
             widest = widest.max((at(ray, 6.0) - far).length());
         }
         assert!((widest - 0.5).abs() < 1e-3, "{widest}");
+    }
+
+    #[test]
+    fn rays_begin_within_their_origins() {
+        let at = |lens, aperture| {
+            let position = Vec3::new(0.0, -10.0, 0.0);
+            Camera::new(position, Vec3::ZERO, Vec3::Z, lens, aperture, [300, 200]).expect("a good camera")
+        };
+        let size = |camera: &Camera| camera.origins([300, 200], 1.0).map(|all| all.bounds().size());
+        assert_eq!(size(&at(Lens::FieldOfView(60.0), None)), None);
+        let opening = size(&at(Lens::FieldOfView(60.0), Aperture::new(0.5, 6, 8.0).ok())).expect("an opening");
+        assert!((opening - Vec3::new(1.0, 0.0, 1.0)).length() < 1e-6, "{opening}");
+        // A pixel more on each side.
+        let view = size(&at(Lens::Parallel { width: 30.0 }, None)).expect("a view");
+        assert!((view - Vec3::new(30.2, 0.0, 20.2)).length() < 1e-4, "{view}");
     }
 
     #[test]

@@ -55,6 +55,12 @@ impl Bounds {
         point.cmpge(self.min).all() && point.cmple(self.max).all()
     }
 
+    /// Widened by a length on all sides.
+    pub(super) fn widened(&self, by: f64) -> Self {
+        let by = Vec3::splat(by as f32);
+        Self { min: self.min - by, max: self.max + by }.padded()
+    }
+
     /// Widened by a few roundings of its coordinates, so that it surely holds what was computed in single precision.
     pub(super) fn padded(&self) -> Self {
         if self.is_empty() {

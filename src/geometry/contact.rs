@@ -48,20 +48,22 @@ impl Shape {
     /// Whether the surfaces of two shapes may have points in common. False only if they surely have none: one is outside of the
     /// other, or within it, with room between. Of two meshes only the boxes are looked at.
     pub fn may_touch(&self, other: &Shape) -> bool {
+        if !self.bounds().padded().meets(&other.bounds().padded()) {
+            return false;
+        }
         let (own, its) = (Body::Shape(self), Body::Shape(other));
-        let clear = match (self, other) {
-            (Shape::Mesh(_), Shape::Mesh(_)) => false,
+        match (self, other) {
+            (Shape::Mesh(_), Shape::Mesh(_)) => true,
             (Shape::Mesh(mesh), solid) | (solid, Shape::Mesh(mesh)) => {
                 let solid_body = Body::Shape(solid);
                 let touches = |triangle: &[DVec3; 3]| {
                     let within = triangle.iter().all(|corner| solid.contains(corner.as_vec3()));
                     !within && !solid_body.apart(&Body::Triangle(triangle), ROOM)
                 };
-                !mesh.any_triangle_near(&solid.bounds().padded(), touches)
+                mesh.any_triangle_near(&solid.bounds().padded(), touches)
             }
-            _ => own.apart(&its, ROOM) || own.within(other, ROOM) || its.within(self, ROOM),
-        };
-        !clear && self.bounds().padded().meets(&other.bounds().padded())
+            _ => !(own.apart(&its, ROOM) || own.within(other, ROOM) || its.within(self, ROOM)),
+        }
     }
 }
 

@@ -13,6 +13,7 @@
 
 mod bounds;
 mod check;
+mod coincide;
 mod contact;
 pub mod convex;
 pub mod cuts;

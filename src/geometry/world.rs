@@ -178,49 +178,84 @@ impl World {
         self.shape(hit.shape)?.uv(hit.point, hit.facet)
     }
 
-    /// The next surface along a ray that coincides, up to rounding, with the last of those `met` at one place.
+    /// The next surface along a ray that coincides, up to rounding, with the last one that was met
+    /// at a place, `far`; those `before` it are not met again.
     ///
     /// It is looked for along the ray that has found the first one. A ray from there would have to judge anew which surface is
     /// still to come: one that this ray meets later by a hair, that one could take for passed, and then nobody crosses it.
     /// `also` as in [`Self::closest_beyond`].
-    pub fn beside(&self, ray: &Ray, also: &[Departure], met: &[Hit]) -> Option<Hit> {
-        let far = met.last()?;
+    pub fn beside(&self, ray: &Ray, also: &[Departure], far: &Hit, before: &[Hit]) -> Option<Hit> {
         let within = |extent: f32| far.t + self.rounding(ray, far, extent);
-        let probe = self.probe(ray);
-        let departed = departed(ray);
-        let mut best: Option<Nearest> = None;
-        let mut candidate = |shape: u32, crossing: Option<Crossing>| {
-            let Some(crossing) = crossing.filter(|crossing| crossing.t <= within(self.extent(ShapeId(shape)))) else {
-                return;
-            };
-            let before = |b: &Nearest| (b.crossing.t, b.shape) <= (crossing.t, shape);
-            if !best.as_ref().is_some_and(before) {
-                best = Some(Nearest { crossing, shape });
-            }
-        };
-        self.visit(ray, &probe, within(self.largest), |shape, limit| {
-            if shape != departed && !is_among(also, shape) && met.iter().all(|hit| hit.shape.0 != shape) {
-                candidate(shape, self.shapes[shape as usize].meet(&probe, limit));
-            }
-            limit
-        });
-        for (shape, leaving) in all_left(ray, also).filter(|(shape, _)| met.iter().all(|hit| hit.shape != *shape)) {
-            candidate(shape.0, self.shape(shape).and_then(|own| own.again(&leaving, within(own.extent()))));
-        }
+        let asked = |shape: ShapeId| shape != far.shape && before.iter().all(|hit| hit.shape != shape);
+        let mut best = self.first_within(ray, also, within, asked);
         // Two solids of one mesh may touch each other.
         if let Some(Shape::Mesh(mesh)) = self.shape(far.shape) {
             let side = far.side.opposite();
             let &Hit { facet, place, .. } = far;
             let from_there = Ray::free(far.point, ray.direction);
             let again = mesh.again(&Leaving { ray: &from_there, facet, side, place }, within(mesh.extent()) - far.t);
-            candidate(far.shape.0, again.map(|crossing| Crossing { t: far.t + crossing.t, ..crossing }));
+            let again = again.map(|crossing| Crossing { t: far.t + crossing.t, ..crossing });
+            best = self.sooner(best, far.shape, again, within);
         }
         best.map(|nearest| self.surface(ray, &nearest.met()))
+    }
+
+    /// The first of some surfaces, in their order, that coincides up to rounding with what a ray
+    /// has met, from however far it came. `also` as in [`Self::closest_beyond`].
+    pub fn upon(&self, ray: &Ray, also: &[Departure], met: &Hit, among: &[ShapeId]) -> Option<Hit> {
+        let within = |extent: f32| met.t + self.rounding(ray, met, extent + met.t);
+        let first = self.first_within(ray, also, within, |shape| among.binary_search(&shape).is_ok());
+        first.map(|nearest| self.surface(ray, &nearest.met()))
+    }
+
+    /// The first of the surfaces that are `asked`, no farther away than `within` allows a shape of
+    /// an extent.
+    fn first_within(
+        &self,
+        ray: &Ray,
+        also: &[Departure],
+        within: impl Fn(f32) -> f32,
+        asked: impl Fn(ShapeId) -> bool,
+    ) -> Option<Nearest> {
+        let probe = self.probe(ray);
+        let departed = departed(ray);
+        let mut best: Option<Nearest> = None;
+        self.visit(ray, &probe, within(self.largest), |shape, limit| {
+            if shape != departed && !is_among(also, shape) && asked(ShapeId(shape)) {
+                let crossing = self.shapes[shape as usize].meet(&probe, limit);
+                best = self.sooner(best, ShapeId(shape), crossing, &within);
+            }
+            limit
+        });
+        for (shape, leaving) in all_left(ray, also).filter(|&(shape, _)| asked(shape)) {
+            let again = self.shape(shape).and_then(|own| own.again(&leaving, within(own.extent())));
+            best = self.sooner(best, shape, again, &within);
+        }
+        best
+    }
+
+    /// The best so far or one more crossing, if that is near enough and comes before it.
+    fn sooner(
+        &self,
+        best: Option<Nearest>,
+        ShapeId(shape): ShapeId,
+        crossing: Option<Crossing>,
+        within: impl Fn(f32) -> f32,
+    ) -> Option<Nearest> {
+        let near = crossing.filter(|crossing| crossing.t <= within(self.extent(ShapeId(shape))));
+        let Some(crossing) = near else { return best };
+        let before = |b: &Nearest| (b.crossing.t, b.shape) <= (crossing.t, shape);
+        if best.as_ref().is_some_and(before) { best } else { Some(Nearest { crossing, shape }) }
     }
 
     /// Whether a hit is at the origin of its ray, up to rounding.
     pub fn is_at_origin(&self, ray: &Ray, hit: &Hit) -> bool {
         hit.t <= self.rounding(ray, hit, self.extent(hit.shape))
+    }
+
+    /// Whether a hit is where a shadow ray ends, `t_max` away on a target, up to rounding.
+    pub fn is_at_end(&self, ray: &Ray, hit: &Hit, t_max: f32, target: Target) -> bool {
+        t_max - hit.t <= self.rounding(ray, hit, self.extent(target.shape) + hit.t)
     }
 
     /// How far along a ray rounding can move a hit against that with a surface of an extent.

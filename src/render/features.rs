@@ -74,7 +74,7 @@ impl Guides {
 
     /// What a camera ray sees.
     pub fn seen(&self, scene: &Scene, ray: &Ray) -> Seen {
-        let Some(hit) = scene.world.closest(ray, f32::INFINITY) else { return Seen::NOTHING };
+        let Some(hit) = scene.closest(ray) else { return Seen::NOTHING };
         let mut seen = self.at(scene, &hit);
         if self.mirrors {
             seen = self.follow(scene, *ray, hit, seen);
@@ -91,7 +91,7 @@ impl Guides {
             tint = product(tint, self.at(scene, &hit).albedo);
             let cos = (-ray.direction.dot(facing(&hit))).clamp(0.0, 1.0);
             ray = Ray::leaving(&hit, hit.side, reflect(ray.direction, facing(&hit), cos));
-            let Some(next) = scene.world.closest(&ray, f32::INFINITY) else { return first };
+            let Some(next) = scene.closest(&ray) else { return first };
             hit = next;
             let reflected = self.at(scene, &hit);
             seen = Seen { albedo: product(tint, reflected.albedo), normal: reflected.normal };

@@ -9,11 +9,12 @@ use crate::bsdf::dielectric::{reflect, refract, refract_lanes};
 use crate::bsdf::{Directions, choose};
 use crate::geometry::{Departure, Hit, Ray, Side};
 use crate::sampler::Sampler;
-use crate::scene::{Filling, Inside, Interface, Physics, Surface};
+use crate::scene::{Filling, Inside, Interface, Object, Physics, Surface};
 use crate::spectrum::Lanes;
 
-/// Boundaries that coincide at one place, at most.
-const MOST: usize = 8;
+/// Boundaries that coincide at one place, at most. More than anybody stacks; without an end two
+/// faces of one mesh in one place could be met in turn for ever.
+pub const MOST: usize = 256;
 
 /// What light meets at one place: one boundary, or several that coincide.
 struct Boundary {
@@ -30,10 +31,9 @@ impl<const P: u32> Tracer<'_, P> {
     /// Boundaries that coincide are one: there is no air between glasses that touch. Goes on through all that are met at once.
     #[inline(never)]
     fn contact(&self, mut boundary: Boundary, ray: &Ray, also: &[Departure]) -> Boundary {
-        let mut met = [boundary.far; MOST];
-        for count in 1..MOST {
-            let Some(next) = self.scene.world.beside(ray, also, &met[..count]) else { break };
-            let Surface::Dielectric(interface) = self.surface(&next) else { break };
+        let mut before = Vec::new();
+        while let Some(next) = self.scene.world.beside(ray, also, &boundary.far, &before) {
+            let (Surface::Dielectric(interface), true) = (self.surface(&next), before.len() < MOST) else { break };
             let interface = self.boundary_at(interface, &next);
             let rank = self.scene.object(next.shape).rank;
             let entering = next.side == Side::Outside;
@@ -42,24 +42,26 @@ impl<const P: u32> Tracer<'_, P> {
                 boundary.interface = interface;
                 boundary.rank = rank;
             }
-            boundary.far = next;
-            met[count] = next;
+            before.push(std::mem::replace(&mut boundary.far, next));
         }
         boundary
     }
 
-    /// What a path meets next. Where faces coincide the surface just crossed knows itself, but not that the other one was crossed
-    /// with it: crossing that again changes nothing, so it is noted in `also` and left behind.
+    /// What a path meets next. Where faces coincide the surface just crossed knows itself, but not
+    /// that the other one was crossed with it: crossing that again changes nothing, so it is noted
+    /// in `also` and left behind. What lies on a boundary comes before it.
     #[inline]
     pub fn next<const N: usize>(&self, path: &Path<N>, also: &mut Vec<Departure>) -> Option<Hit> {
         let hit = self.scene.world.closest(&path.ray, f32::INFINITY)?;
-        if self.touches(&hit) { self.next_beyond(path, also, hit) } else { Some(hit) }
+        if self.joins(&hit) { self.next_beyond(path, also, hit) } else { Some(hit) }
     }
 
-    /// Whether other boundaries may coincide with the one that is hit.
+    /// Whether other surfaces may coincide with the one that is hit. (A kernel that does not run
+    /// this must not look the object up.)
     #[inline]
-    fn touches(&self, hit: &Hit) -> bool {
-        Self::runs(Physics::CONTACT) && self.scene.object(hit.shape).touches
+    fn joins(&self, hit: &Hit) -> bool {
+        let joins = |object: &Object| object.touches || object.covers;
+        Self::runs(Physics::CONTACT) && joins(self.scene.object(hit.shape))
     }
 
     #[inline(never)]
@@ -74,7 +76,7 @@ impl<const P: u32> Tracer<'_, P> {
             rays::count(1);
             hit = self.scene.world.closest_beyond(&path.ray, also, f32::INFINITY)?;
         }
-        Some(hit)
+        Some(self.scene.cover(&path.ray, also, &hit).unwrap_or(hit))
     }
 
     /// A dielectric boundary: one of reflection and refraction is followed, all lanes alike.
@@ -90,7 +92,7 @@ impl<const P: u32> Tracer<'_, P> {
         let rank = self.scene.object(hit.shape).rank;
         let solid = Filling { rank, medium: interface.medium };
         let media = path.media.across(solid, hit.side == Side::Outside, &self.buried);
-        if self.touches(hit) {
+        if Self::runs(Physics::CONTACT) && self.scene.object(hit.shape).touches {
             let boundary = Boundary { interface: *interface, rank, media, far: *hit };
             return self.cross_together(boundary, path, (hit, also), sampler, radiance);
         }

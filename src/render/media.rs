@@ -5,8 +5,9 @@
 //! solids a path is inside of are a set, so that crossing a boundary twice the same way, as rounding may have it where a ray grazes
 //! an edge, changes nothing.
 //!
-//! A path carries the highest ranks itself. The others, of which most scenes have none, are a number that stands for their list
-//! in [`Buried`], which all paths of a kernel share: a path stays a plain value, and nothing limits how deep solids are nested.
+//! A path carries the highest ranks itself. The others, of which most scenes have none, are a
+//! number that stands for their list in [`Buried`], which all paths of a kernel share: a path stays
+//! a plain value, and nothing limits how deep solids are nested.
 
 use crate::scene::{Filling, MediumId};
 use std::collections::HashMap;
@@ -190,7 +191,8 @@ mod tests {
         assert_eq!(out.current(), MediumId::OUTSIDE);
     }
 
-    /// Against a set of ranks, through many crossings that now and then go deep; equal sets are equal however they came about.
+    /// Against a set of ranks, through many crossings that now and then go deep; equal sets are
+    /// equal however they came about.
     #[test]
     fn any_depth_is_a_set() {
         let buried = Buried::default();

@@ -179,9 +179,7 @@ impl<const P: u32> Tracer<'_, P> {
         for (radiance, light_pdf) in lights.suns(direction) {
             arriving += self.tables.get(radiance, offset) * balance_heuristic(pdf, light_pdf);
         }
-        arriving
-            * self.transmittance(MediumId::OUTSIDE, f32::INFINITY, offset)
-            * self.compression(MediumId::OUTSIDE, offset)
+        arriving * self.transmittance(MediumId::OUTSIDE, f32::INFINITY, offset)
     }
 
     /// Light that a hit sends back along the ray, weighted against finding it by sampling the light.
@@ -199,20 +197,16 @@ impl<const P: u32> Tracer<'_, P> {
         emitted * balance_heuristic(path.pdf, light_pdf)
     }
 
-    /// What a light's radiance is divided by on its way out to the camera: radiance over n² is what refraction keeps
-    /// (Nicodemus 1963), so a light inside glass looks n² times dimmer from outside. Counted where light joins the path,
-    /// it needs no state and leaves the throughput that roulette looks at alone.
+    /// What a light's radiance is multiplied by where it joins the path, so that it counts as if it
+    /// came from outside of all solids: a light inside glass looks n² times dimmer from there. So
+    /// it needs no state and leaves the throughput that roulette looks at alone; what the camera
+    /// stands in counts once for the whole path.
     #[inline(always)]
     pub fn compression<const N: usize>(&self, medium: MediumId, offset: u32) -> Lanes<N> {
-        if !Self::runs(Physics::CLEAR_MEDIA) {
+        if !Self::runs(Physics::CLEAR_MEDIA) || medium == MediumId::OUTSIDE {
             return Lanes::ONE;
         }
-        let seen_from = self.around_camera.current();
-        if medium == seen_from {
-            return Lanes::ONE;
-        }
-        let ratio = self.n::<N>(seen_from, offset) / self.n(medium, offset);
-        ratio * ratio
+        self.concentration(MediumId::OUTSIDE, medium, offset)
     }
 
     /// Share of light that a medium lets through over a length (Beer–Lambert).

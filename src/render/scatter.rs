@@ -117,7 +117,7 @@ impl<const P: u32> Tracer<'_, P> {
         let medium = if light.distance == f32::INFINITY { MediumId::OUTSIDE } else { medium };
         let shadow = Ray::leaving(hit, side, light.direction);
         rays::count(1);
-        if self.scene.world.occluded(&shadow, light.distance, light.target) {
+        if self.hidden(&shadow, light, hit) {
             return Lanes::ZERO;
         }
         light.radiance.at(&self.tables, offset)

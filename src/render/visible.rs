@@ -25,6 +25,6 @@ pub fn first_hits(scene: &Scene, window: Window) -> Vec<Option<FirstHit>> {
 
 fn first_hit(scene: &Scene, x: u32, y: u32) -> Option<FirstHit> {
     let ray = scene.camera.principal_ray(x as f32 + 0.5, y as f32 + 0.5);
-    let hit = scene.world.closest(&ray, f32::INFINITY)?;
+    let hit = scene.closest(&ray)?;
     Some(FirstHit { depth: scene.camera.depth(hit.point), object: hit.shape.0 })
 }

@@ -99,7 +99,9 @@ pub struct Camera {
     pub file: Option<Spanned<String>>,
     /// The name of the file's camera; its first one unless given.
     pub named: Option<Spanned<String>>,
-    /// Where the camera stands.
+    /// Where the camera stands. Its rays begin in the clear solid that is there; of parallel rays,
+    /// and of those through an opening, each in the one at its own origin. It must not stand inside
+    /// something opaque; where only a part of its rays begins there, that part is black.
     pub position: Option<Vector>,
     /// The point in the middle of the picture.
     pub look_at: Option<Vector>,
@@ -299,7 +301,12 @@ pub struct Conductor {
     pub fresnel: Option<Spanned<FresnelModel>>,
 }
 
-/// A clear or coloured solid such as glass, water or a gem. Smooth unless one of the two words for roughness is given.
+/// A clear or coloured solid such as glass, water or a gem. Smooth unless one of the two words for
+/// roughness is given. Solids may be in each other, however many. Faces that coincide are in
+/// optical contact: two clear solids that touch have one boundary, and something opaque that lies
+/// on a face (a sheet, or a solid with a face in common) covers it, whatever the order of the
+/// objects. From outside it is seen in front of the glass, from within as in the glass; a lamp
+/// shines into the glass from the side that faces it. A gap of 1e-5 of their size puts air between.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Dielectric {

@@ -23,7 +23,7 @@ pub use resolve::{Overrides, resolve};
 use crate::bsdf::conductor::MIRROR_ALPHA;
 use crate::camera::{Camera, Filter};
 use crate::fresnel::{FresnelModel, Specimen};
-use crate::geometry::{ShapeId, World};
+use crate::geometry::{Departure, Hit, Ray, ShapeId, World};
 use crate::light::Lights;
 use crate::spectrum::{About, Arena, ColorMatching, Colorimeter, SpectrumId, Tint};
 use crate::texture::Texels;
@@ -38,6 +38,8 @@ pub struct Scene {
     pub world: World,
     /// By [`ShapeId`].
     pub objects: Vec<Object>,
+    /// Of each clear solid on whose faces opaque objects lie, which ones, in their order.
+    pub covers: BTreeMap<ShapeId, Vec<ShapeId>>,
     pub surfaces: Vec<Surface>,
     /// What changes from place to place on a surface, by the surface's index.
     pub patterns: BTreeMap<u32, Pattern>,
@@ -45,8 +47,7 @@ pub struct Scene {
     pub media: Vec<Medium>,
     pub lights: Lights,
     pub camera: Camera,
-    /// The dielectric solids that the camera stands in.
-    pub around_camera: Vec<Filling>,
+    pub around_camera: Around,
     pub filter: Filter,
     pub settings: Settings,
     pub picture: Picture,
@@ -83,6 +84,8 @@ pub struct Object {
     pub inside: Inside,
     /// For dielectrics: whether its boundary may coincide with that of another one somewhere.
     pub touches: bool,
+    /// Whether it has a part in [`Scene::covers`], on either side.
+    pub covers: bool,
 }
 
 /// A solid as a path knows it that is inside of it.
@@ -91,6 +94,15 @@ pub struct Filling {
     /// [`Object::rank`].
     pub rank: u32,
     pub medium: MediumId,
+}
+
+/// The dielectric solids that a camera's rays begin in.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Around {
+    /// All of them do.
+    pub all: Vec<Filling>,
+    /// Some may; its origin tells of each.
+    pub some: Vec<(ShapeId, Filling)>,
 }
 
 /// What happens to light at an object.
@@ -220,6 +232,21 @@ pub struct DataSet {
 impl Scene {
     pub fn object(&self, shape: ShapeId) -> &Object {
         &self.objects[shape.0 as usize]
+    }
+
+    /// What a ray from elsewhere meets first, as paths have it.
+    pub fn closest(&self, ray: &Ray) -> Option<Hit> {
+        let hit = self.world.closest(ray, f32::INFINITY)?;
+        Some(self.cover(ray, &[], &hit).unwrap_or(hit))
+    }
+
+    /// What opaque lies on the boundary where a ray has met it, leaving others behind as in
+    /// [`World::closest_beyond`].
+    pub fn cover(&self, ray: &Ray, also: &[Departure], hit: &Hit) -> Option<Hit> {
+        if !self.object(hit.shape).covers {
+            return None;
+        }
+        self.world.upon(ray, also, hit, self.covers.get(&hit.shape)?)
     }
 
     pub fn medium(&self, id: MediumId) -> &Medium {

@@ -4,6 +4,7 @@ use super::chance::{self, Chance};
 use super::{Inside, Interface, MediumId, Object, Pattern, Physics, Scene, Surface, lighting};
 use crate::bsdf::conductor::MIRROR_ALPHA;
 use crate::fresnel::FresnelModel;
+use crate::geometry::ShapeId;
 use crate::light::{Environment, FEW};
 use crate::spectrum::Density;
 use serde::Serialize;
@@ -158,20 +159,36 @@ fn immersion(scene: &Scene) -> Decision {
     }
 }
 
-/// Solids that may touch or overlap, in the order in which they fill the space.
 fn contact(scene: &Scene) -> Decision {
+    const PART: &str = "media in contact";
+    match [order(scene), covered(scene)].into_iter().flatten().collect::<Vec<_>>() {
+        reasons if reasons.is_empty() => {
+            decision(PART, false, "no two clear solids can touch or overlap, and nothing opaque lies on a clear face")
+        }
+        reasons => decision(PART, true, reasons.join("; ")),
+    }
+}
+
+/// Solids that may touch or overlap, in the order in which they fill the space.
+fn order(scene: &Scene) -> Option<String> {
     let mut touching: Vec<&Object> = scene.objects.iter().filter(|object| object.touches).collect();
     touching.sort_by_key(|object| std::cmp::Reverse(object.rank));
-    match touching.iter().map(|object| object.name.as_str()).collect::<Vec<_>>() {
-        names if names.is_empty() => decision("media in contact", false, "no two clear solids can touch or overlap"),
-        names => {
-            let order = format!(
-                "each boundary is asked for another one at its place; where they overlap, first comes first: {}",
-                names.join(", ")
-            );
-            decision("media in contact", true, order)
-        }
-    }
+    let names: Vec<&str> = touching.iter().map(|object| object.name.as_str()).collect();
+    let what = "each boundary is asked for another one at its place; where they overlap, first comes first";
+    (!names.is_empty()).then(|| format!("{what}: {}", names.join(", ")))
+}
+
+/// What opaque lies on which faces.
+fn covered(scene: &Scene) -> Option<String> {
+    let name = |id: &ShapeId| scene.object(*id).name.as_str();
+    let on = |(solid, lying): (&ShapeId, &Vec<ShapeId>)| {
+        let lying: Vec<&str> = lying.iter().map(name).collect();
+        format!("{} on {}", listed(&lying), name(solid))
+    };
+    let all: Vec<String> = scene.covers.iter().map(on).collect();
+    let names: Vec<&str> = all.iter().map(String::as_str).collect();
+    let what = "light meets what is opaque before the clear face that it lies on";
+    (!names.is_empty()).then(|| format!("{what}: {}", listed(&names)))
 }
 
 fn microfacets(scene: &Scene) -> Decision {

@@ -23,7 +23,7 @@ impl Physics {
     pub const ABSORPTION: Self = Self(1 << 5);
     /// Lanes part where they enter a medium.
     pub const DISPERSION: Self = Self(1 << 6);
-    /// Boundaries of clear media that coincide or overlap.
+    /// Boundaries of clear media that coincide, overlap, or are covered by something opaque.
     pub const CONTACT: Self = Self(1 << 7);
     /// Boundaries of clear media that are not smooth.
     pub const ROUGH_GLASS: Self = Self(1 << 8);

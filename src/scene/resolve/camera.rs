@@ -3,10 +3,9 @@
 use super::Resolver;
 use super::view::View;
 use crate::camera::{Aperture, Camera, CameraError, Lens};
-use crate::geometry::World;
 use crate::geometry::loaders::Projection;
+use crate::scene::SceneError;
 use crate::scene::describe;
-use crate::scene::{Filling, Object, SceneError};
 use std::ops::Range;
 use toml::Spanned;
 
@@ -24,14 +23,6 @@ impl Resolver<'_> {
         let aperture = self.aperture(described, view)?;
         Camera::new(view.position, view.look_at, view.up, lens, aperture, size)
             .map_err(|error| self.text.error(&place(&error, described, view), error))
-    }
-
-    /// What the camera stands in.
-    pub fn around_camera(&self, view: &View, world: &World, objects: &[Object]) -> Result<Vec<Filling>, SceneError> {
-        self.around(view.position, world, objects).map_err(|inside| {
-            let message = format!("the camera stands inside `{}`, which lets no light through", objects[inside].name);
-            self.text.error(&view.position_at, message).help("move it out of the object")
-        })
     }
 
     /// The opening in scene units; `None` without `f_number`, with which everything is in focus.

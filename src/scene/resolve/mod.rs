@@ -1,6 +1,8 @@
 //! From what the files say to a scene that renders without failing: names looked up, units converted, every check made.
 
+mod around;
 mod camera;
+mod covers;
 mod emission;
 mod materials;
 mod meshes;
@@ -129,10 +131,13 @@ impl Resolver<'_> {
         for sun in &file.suns {
             emitters.push(self.sun(sun.get_ref(), half_diagonal(&world.bounds()))?);
         }
+        let covers = self.covers(&world, &mut objects);
         self.solids(&world, &mut objects);
         let view = self.view(&file.camera)?;
         let camera = self.camera(&file.camera, &view, [settings.width, settings.height])?;
-        let around_camera = self.around_camera(&view, &world, &objects)?;
+        let filter = settings::filter(settings.filter);
+        let origins = camera.origins([settings.width, settings.height], filter.overhang());
+        let around_camera = self.around_camera(&view, origins, &world, &objects)?;
         let picture = self.picture(&file.picture)?;
         let lights = Lights::new(emitters, environment, &world);
         self.warn_of_lost_light(!file.points.is_empty(), file.environment.is_some() || !file.suns.is_empty());
@@ -145,13 +150,14 @@ impl Resolver<'_> {
             spectra: self.spectra,
             world,
             objects,
+            covers,
             surfaces: self.surfaces,
             patterns: self.patterns,
             media: self.media,
             lights,
             camera,
             around_camera,
-            filter: settings::filter(settings.filter),
+            filter,
             settings,
             picture,
             data: self.data,

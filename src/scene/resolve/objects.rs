@@ -131,8 +131,8 @@ impl Resolver<'_> {
         }
         let material = material.map_or("light", |material| material.get_ref()).to_owned();
         let priority = object.priority;
-        let (rank, inside, touches) = (0, Inside::General, false);
-        all.objects.push(Object { name, material, surface, priority, rank, inside, touches });
+        let (rank, inside, touches, covers) = (0, Inside::General, false, false);
+        all.objects.push(Object { name, material, surface, priority, rank, inside, touches, covers });
         all.shapes.push(shape);
         Ok(())
     }

@@ -2,17 +2,18 @@
 
 use super::Resolver;
 use crate::geometry::{Shape, ShapeId, World};
-use crate::scene::{Filling, Inside, Object, Surface};
+use crate::scene::{Inside, Interface, Object, Surface};
 use glam::Vec3;
 
-/// Pairs of solids that are named when they overlap; of more, how many.
+/// Pairs of objects that are named; of more, how many.
 const PAIRS: usize = 3;
 
 /// Points of a shape's surface that are looked at to tell whether it overlaps another one.
 const POINTS: usize = 256;
 
 impl Resolver<'_> {
-    fn interface(&self, object: &Object) -> Option<crate::scene::Interface> {
+    /// The boundary of a clear object; none of an opaque one.
+    pub fn interface(&self, object: &Object) -> Option<Interface> {
         match self.surfaces[object.surface as usize] {
             Surface::Dielectric(interface) => Some(interface),
             _ => None,
@@ -29,7 +30,8 @@ impl Resolver<'_> {
             let shape = &world.shapes()[index];
             objects[index].touches =
                 world.near(id).any(|(other, its)| refracting(&objects[other.0 as usize]) && shape.may_touch(its));
-            let alone = matches!(shape, Shape::Convex(_)) && !objects[index].touches && world.stands_alone(id);
+            let joined = objects[index].touches || objects[index].covers;
+            let alone = matches!(shape, Shape::Convex(_)) && !joined && world.stands_alone(id);
             if alone && !interface.is_rough() {
                 objects[index].inside = Inside::Alone;
             }
@@ -56,27 +58,17 @@ impl Resolver<'_> {
                 }
             }
         }
+        self.warn_of_pairs(told, "pairs of solids overlap");
+    }
+
+    /// The first few of what is told of pairs of objects, and how many more there are.
+    pub fn warn_of_pairs(&mut self, mut told: Vec<String>, what: &str) {
         let more = told.len().saturating_sub(PAIRS);
         told.truncate(PAIRS);
         self.warnings.append(&mut told);
         if more > 0 {
-            self.warnings.push(format!("{more} more pairs of solids overlap like that"));
+            self.warnings.push(format!("{more} more {what} like that"));
         }
-    }
-
-    /// The solids that the camera stands in, or the opaque one.
-    pub fn around(&self, position: Vec3, world: &World, objects: &[Object]) -> Result<Vec<Filling>, usize> {
-        let containing = (0..objects.len()).filter(|&index| world.shapes()[index].contains(position));
-        let mut around = Vec::new();
-        for index in containing {
-            match (self.interface(&objects[index]), &world.shapes()[index]) {
-                (Some(interface), _) => around.push(Filling { rank: objects[index].rank, medium: interface.medium }),
-                // A closed mesh may be a room.
-                (None, Shape::Mesh(_)) => {}
-                (None, _) => return Err(index),
-            }
-        }
-        Ok(around)
     }
 }
 
