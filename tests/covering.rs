@@ -12,8 +12,10 @@ use common::files::{cuboid, obj};
 use common::plates::{check, fresnel};
 use common::{film, lanes::with, library, scene};
 use glam::{DMat3, DVec3};
+use spectrel::film::Window;
 use spectrel::fresnel::exact::reflect;
 use spectrel::geometry::{Brilliant, Triangles};
+use spectrel::render::first_hits;
 use spectrel::scene::Needs;
 use std::path::Path;
 
@@ -347,6 +349,24 @@ fn a_lamp_on_glass_lights_what_is_around_it() {
                     let text = head.clone() + &objects + &target;
                     let name = format!("{name} {glass}, {place:?}");
                     check(&name, &mut scene(&text, &with(8, 256)), right, &[1.01 * right]);
+                }
+            }
+        }
+    }
+}
+
+/// What the layers of a picture show is what paths meet first.
+#[test]
+fn layers_show_the_sheet_in_either_order() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for glass in blocks(folder.path()) {
+        for sheet in sheets(folder.path()) {
+            for objects in HERE.both(&glass, &format!("material = \"grey\"\n{sheet}")) {
+                let text = HERE.looking(9.0 * DVec3::Z, DVec3::ZERO) + SKY + &clear() + &objects;
+                let scene = scene(&text, &with(8, 1));
+                for hit in first_hits(&scene, Window::full(8, 8)) {
+                    let name = &scene.objects[hit.expect("a sheet").object as usize].name;
+                    assert_eq!(name, "sheet", "{sheet} on {glass}");
                 }
             }
         }

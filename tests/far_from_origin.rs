@@ -113,12 +113,15 @@ fn places_that_are_rounded_are_told() {
     let camera = [0.0, -8.0, 5.0];
     assert!(told(DVec3::new(1e4, 0.0, 0.0), camera, "").is_empty());
     let warnings = told(DVec3::new(1e6, 0.0, 0.0), camera, "");
-    assert!(matches!(&warnings[..], [one] if one.contains("`ball`") && one.contains("6.0e-2 units")), "{warnings:?}");
+    assert!(
+        matches!(&warnings[..], [one] if one.contains("size: ball.") && one.contains("6.0e-2 units")),
+        "{warnings:?}"
+    );
     // A mesh whose corners are far away in its file, brought back by a transform: what its file has lost stays lost.
     let folder = tempfile::tempdir().expect("a folder");
     let mesh = obj(folder.path(), "block", &cuboid([1e6, 0.0, 0.0], [1.0; 3]));
     let mesh =
         format!("[[objects]]\nname = \"block\"\nmaterial = \"gold\"\n{mesh}\ntransform.translate = [-1e6, 0, 0]\n");
     let warnings = told(DVec3::ZERO, camera, &mesh);
-    assert!(matches!(&warnings[..], [one] if one.contains("`block`")), "{warnings:?}");
+    assert!(matches!(&warnings[..], [one] if one.contains("size: block.")), "{warnings:?}");
 }

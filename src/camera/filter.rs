@@ -4,19 +4,9 @@
 //! (Ernst, Stamminger & Greiner 2006, "Filter importance sampling"), so every pixel is an independent sum and no sample is
 //! splatted. All filters are separable and nowhere negative.
 //!
-//! A light smaller than a pixel gives all pixels together the same wherever it stands, if the filter's copies at all pixels sum to a
-//! constant; its frequency response is then 0 at every whole number of cycles a pixel (G. Strang & G. Fix, "A Fourier analysis of the finite
-//! element variational method", 1973). Of such windows the tent, the B-spline of degree 1, is as sharp as the Blackman–Harris window of
-//! radius 1.5 that does not (2026-11; what passes above half a cycle would appear as something coarser):
-//!
-//! ```text
-//!                            at 1/4   at 1/2   power above 1/2   above 1   by the place in a pixel
-//! box                         0.900    0.637        0.109         4e-2
-//! tent                        0.811    0.405        0.0176        1e-3
-//! B-spline of degree 2        0.730    0.258        0.0050        3e-5
-//! raised cosine, radius 1     0.849    0.500        0.0320        2e-4
-//! Blackman–Harris, 1.5        0.807    0.413        0.0195        1e-5      0.967 … 1.033, along each axis
-//! ```
+//! A light smaller than a pixel gives all pixels together the same wherever it stands, if the filter's copies at all
+//! pixels sum to a constant. The tent's do; the Blackman–Harris window's, as sharp as it, do not: 0.967 to 1.033 along
+//! each axis (docs/notes/02-pixel-filter.md).
 
 /// How the samples of a pixel lie around its centre.
 #[derive(Clone, Debug)]

@@ -103,8 +103,8 @@ impl<const N: usize> Path<N> {
     /// ρ²ᵏ k² is finite for every ρ below 1.
     ///
     /// A Q that falls as 0.98ᵏ has an infinite variance above ρ = √0.98: closed rooms of 0.998 came
-    /// out at 0.88 ± 0.09 of their light, with errors 8 times those told (2026-11). As 0.95ᵏ from
-    /// depth 64 on it darkened a ball of flat glass in a furnace to 99.84 ± 0.02 %.
+    /// out at 0.88 ± 0.09 of their light (docs/notes/03-ending-paths.md). As 0.95ᵏ from depth 64 on it
+    /// darkened a ball of flat glass in a furnace to 99.84 ± 0.02 %.
     #[cold]
     fn late_survival(&mut self, carried: f32) -> f32 {
         let depth = self.depth as f32;

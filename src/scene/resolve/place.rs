@@ -63,13 +63,13 @@ impl Resolver<'_> {
     }
 
     pub fn warn_of_rounding(&mut self) {
-        let names: Vec<String> = self.rounded.iter().map(|rounded| format!("`{}`", rounded.name)).collect();
-        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let mut names: Vec<&str> = self.rounded.iter().map(|rounded| rounded.name.as_str()).collect();
+        names.dedup();
         let by = self.rounded.iter().map(|rounded| rounded.by).fold(0.0, f32::max);
         if !names.is_empty() {
             self.warnings.push(format!(
                 "small things so far from where the camera looks that single precision shifts their places by up to {by:.1e} units, \
-                 more than a thousandth of their size: {}; let the camera look at them, or bring them nearer (a mesh, in its file)",
+                 more than a thousandth of their size: {}. Let the camera look at them, or bring them nearer (a mesh, in its file)",
                 listed(&names)
             ));
         }
