@@ -6,7 +6,7 @@
 //! found late, and then thinned by the samples that it asks for (2 to 4 % on caustics before this was so; `tests/promises`).
 //!
 //! For the same reason a half that has enough is kept as it is, and goes on only to judge the other one: what it would say of it must
-//! not depend on when it itself was told to stop. Looks are at steps of [`STEP`], but where both halves are far from their end.
+//! not depend on when it itself was told to stop. When a half is judged next depends on its last judgement alone.
 //!
 //! What is promised of a half is what the other half promises after as many samples; both promises together are the picture's.
 
@@ -49,6 +49,8 @@ struct Promise {
     bounds: Vec<Bound>,
     /// The largest share of a target.
     excess: f64,
+    /// Samples a pixel at which to look again.
+    next: f64,
 }
 
 impl Promise {
@@ -67,7 +69,7 @@ impl Work<'_> {
         let noise = Noise::of_each(layers.replicates(), width, &view);
         let shares = Shares::new(&noise, width, aim(goal.targets), FEWEST);
         let (mut mean, mut kept) = (first as f64, None);
-        let mut promises = goal.promises(layers, &view);
+        let mut promises = goal.promises(layers, &view, mean);
         loop {
             self.tell(mean, goal.targets, &promises);
             let affordable = goal.affordable(started.elapsed(), mean);
@@ -79,11 +81,14 @@ impl Work<'_> {
                 let settled = promises.iter().position(Promise::keeps);
                 kept = settled.map(|which| layers.keep(of_half(layers, which)));
             }
-            mean = further(mean, &promises).min(affordable).min(goal.most as f64);
+            mean = nearest(&promises).min(affordable).min(goal.most as f64);
             self.go_on(layers, &shares.ranges(counts(layers), |_| mean, each));
             let (_, view) = viewed(layers, develop)?;
-            let open = promises.iter_mut().zip(goal.promises(layers, &view)).filter(|(promise, _)| !promise.keeps());
-            open.for_each(|(promise, now)| *promise = now);
+            let over = mean >= affordable || mean >= goal.most as f64;
+            let due = |promise: &Promise| !promise.keeps() && (over || mean >= promise.next);
+            let judged =
+                promises.iter_mut().zip(goal.promises(layers, &view, mean)).filter(|(promise, _)| due(promise));
+            judged.for_each(|(promise, now)| *promise = now);
         }
     }
 
@@ -101,7 +106,7 @@ impl Work<'_> {
 
 impl Goal<'_> {
     /// What each half is told by the other one.
-    fn promises(&self, layers: &Layers, view: &View) -> [Promise; 2] {
+    fn promises(&self, layers: &Layers, view: &View, mean: f64) -> [Promise; 2] {
         // How many samples there are tells nothing of what they found: here both halves count.
         let unseen = Unseen {
             brightest: view.display_f64(self.chance.brightest),
@@ -114,7 +119,9 @@ impl Goal<'_> {
                 self.targets.iter().map(|target| target.measure.of(&noise, view, &unseen)).collect();
             let shares = self.targets.iter().zip(&bounds).map(|(target, bound)| bound.promised / target.bound);
             let excess = shares.fold(0.0, f64::max);
-            Promise { bounds, excess }
+            // Errors fall at least as the root of the samples.
+            let next = mean * (LEAP.0 * excess * excess).clamp(STEP, LEAP.1);
+            Promise { bounds, excess, next }
         })
     }
 
@@ -124,12 +131,10 @@ impl Goal<'_> {
     }
 }
 
-/// The samples a pixel at which to look again.
-fn further(mean: f64, promises: &[Promise; 2]) -> f64 {
+/// The samples a pixel at which one of the halves is judged next.
+fn nearest(promises: &[Promise; 2]) -> f64 {
     let open = promises.iter().filter(|promise| !promise.keeps());
-    // Errors fall at least as the root of the samples.
-    let times = open.map(|promise| promise.excess * promise.excess).fold(f64::INFINITY, f64::min);
-    mean * (LEAP.0 * times).clamp(STEP, LEAP.1)
+    open.map(|promise| promise.next).fold(f64::INFINITY, f64::min)
 }
 
 /// Puts back what one half was given only to judge the other one.

@@ -43,8 +43,14 @@ pub struct Look {
 
 impl Map {
     /// Rows from the top, each from the left; `light` is the spectral radiance of white, `luminances` are relative to its.
-    /// `rotation` in radians, as in `grid`.
-    pub fn new(size: [u32; 2], tints: Vec<Tint>, luminances: &[f32], light: SpectrumId, rotation: f64) -> Self {
+    /// `rotation` in radians, as in `grid`; `brightest` is the largest channel of a texel.
+    pub fn new(
+        size: [u32; 2],
+        tints: Vec<Tint>,
+        (luminances, brightest): (&[f32], f32),
+        light: SpectrumId,
+        rotation: f64,
+    ) -> Self {
         let [width, height] = size;
         let grid = Grid::new(width, height, rotation);
         let angles: Vec<f64> = (0..height).map(|row| grid.solid_angle(row)).collect();
@@ -63,7 +69,7 @@ impl Map {
             tints,
             light,
             chosen: weights.iter().sum(),
-            brightest: luminances.iter().copied().fold(0.0, f32::max).into(),
+            brightest: brightest.into(),
             distribution: Distribution::new(width, &weights),
             densities: angles.iter().map(|angle| (1.0 / angle) as f32).collect(),
             grid,
@@ -84,7 +90,7 @@ impl Map {
         self.chosen
     }
 
-    /// The largest luminance of a texel, relative to that of white.
+    /// The largest channel of a texel, relative to white: no texel is brighter in X, Y or Z than white times this.
     pub fn brightest(&self) -> f64 {
         self.brightest
     }

@@ -33,11 +33,17 @@ const EVENTS: f64 = 3.0;
 /// Mean over root mean square of the length of a normal vector that is the same in three directions.
 const MEAN_OF_LENGTH: f64 = 0.9213;
 
+/// Variance of the square of a normal number, over the square of its mean: an error is not its expectation.
+const SQUARE_OF_NORMAL: f64 = 2.0;
+
 /// What the 95th percentile is of.
 const PERCENTILE: f64 = 0.95;
 
-/// |N(0, 1)| at the middles of eight equally likely parts.
-const HALF_NORMAL: [f64; 8] = [0.0784, 0.2372, 0.4023, 0.5791, 0.7764, 1.0100, 1.3180, 1.8627];
+/// |N(0, 1)| at the middles of sixteen equally likely parts.
+const HALF_NORMAL: [f64; 16] = [
+    0.0392, 0.1178, 0.1971, 0.2777, 0.3601, 0.4451, 0.5334, 0.6261, 0.7245, 0.8305, 0.9468, 1.0775, 1.2299, 1.4178,
+    1.6759, 2.1539,
+];
 
 /// What a picture's error is, as estimated and as promised: below it with 95 %.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,7 +102,7 @@ impl Bound {
 
     /// Mean ΔE2000.
     pub fn of_mean_de(noise: &Noise, view: &View, unseen: &Unseen) -> Self {
-        let (estimate, upper) = mean_and_upper(&noise.de, noise.sharing);
+        let (estimate, upper) = mean_and_upper(&noise.de, noise.sharing, 0.0);
         let [estimate, upper] = [estimate, upper].map(|de| MEAN_OF_LENGTH * de);
         let missed = unseen.mean_de(view, &noise.colors);
         Self::new(estimate, missed, upper + missed)
@@ -122,7 +128,7 @@ impl Bound {
 
     /// Root mean square error of linear sRGB.
     pub fn of_rmse(noise: &Noise, view: &View, unseen: &Unseen) -> Self {
-        let (estimate, upper) = mean_and_upper(&noise.squares, 1.0);
+        let (estimate, upper) = mean_and_upper(&noise.squares, 1.0, SQUARE_OF_NORMAL);
         let light: f64 = view.rgb(unseen.brightest).iter().map(|c| c * c / 3.0).sum();
         let missed = EVENTS * light / (unseen.samples * unseen.samples * unseen.pixels);
         Self::new(estimate.sqrt(), missed.sqrt(), (upper + missed).sqrt())
@@ -144,14 +150,16 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// The mean of values of which `sharing` count as one, and what it is below with 95 %. Of no values it is no number.
-fn mean_and_upper(values: &[f32], sharing: f64) -> (f64, f64) {
+/// The mean of values of which `sharing` count as one, and what it is below with 95 %, where what is promised differs from each value by
+/// chance, with a variance of `own` times its square. Of no values it is no number.
+fn mean_and_upper(values: &[f32], sharing: f64, own: f64) -> (f64, f64) {
     let count = values.len() as f64;
     let mean = values.iter().copied().map(f64::from).sum::<f64>() / count;
     let moment = |power: i32| values.iter().map(|value| (f64::from(*value) - mean).powi(power)).sum::<f64>();
     let (squares, cubes) = (moment(2), moment(3));
     let skew = if squares > 0.0 { SKEW * sharing * cubes.max(0.0) / (squares * count) } else { 0.0 };
-    (mean, mean + CONFIDENCE * (sharing * squares).sqrt() / count + skew)
+    let realised = own * values.iter().map(|value| f64::from(*value) * f64::from(*value)).sum::<f64>();
+    (mean, mean + CONFIDENCE * (sharing * squares + realised).sqrt() / count + skew)
 }
 
 #[cfg(test)]
@@ -210,8 +218,17 @@ mod tests {
         // Of the mean that 1, 3 and 10 events are too few for with 5 % (chi-squared quantiles, Garwood 1936).
         for (events, upper) in [(1, 4.74), (3, 7.75), (10, 16.96)] {
             let values: Vec<f32> = (0..1000).map(|i| if i < events { 1.0 } else { 0.0 }).collect();
-            let (_, found) = mean_and_upper(&values, 1.0);
+            let (_, found) = mean_and_upper(&values, 1.0, 0.0);
             assert!((1000.0 * found / upper - 1.0).abs() < 0.12, "{events}: {} for {upper}", 1000.0 * found);
         }
+    }
+
+    /// 95 % of |N(0, 1)| are below 1.960, and the mean square of 100 normal errors is below 1.243 (a chi-squared quantile).
+    #[test]
+    fn even_noise_is_bounded_by_what_normal_errors_do() {
+        let noise = Noise { de: vec![1.0; 100], squares: vec![1.0; 100], colors: vec![[0.2; 3]; 100], sharing: 1.0 };
+        let [_, de95, rmse] = all(&noise, &Unseen::NOTHING);
+        assert!((1.96..2.4).contains(&de95.promised), "{de95:?}");
+        assert!((rmse.promised / 1.243_f64.sqrt() - 1.0).abs() < 0.01, "{rmse:?}");
     }
 }

@@ -33,12 +33,21 @@ const PIXELS: usize = (SIZE * SIZE) as usize;
 const SEEDS: u64 = 24;
 
 /// Samples a pixel after which a render ends without a promise.
-const LIMIT: u64 = 1024;
+const LIMIT: u64 = 512;
 
 /// Samples a pixel of what is taken for the truth.
 const TRUTH: u32 = 1 << 16;
 
 const MEASURES: [(&str, Measure); 3] = [("dE", Measure::MeanDe), ("dE95", Measure::De95), ("rmse", Measure::Rmse)];
+
+/// Scenes in which promises are near the truth: at most three times it in the median.
+const FRIENDLY: [&str; 5] = [
+    "picture on the floor",
+    "matt things under a panel",
+    "metals under a sky",
+    "sun over matt things and satin",
+    "many lamps",
+];
 
 /// Linear sRGB of every pixel.
 type Picture = Vec<[f64; 3]>;
@@ -172,9 +181,12 @@ fn promises_are_kept_or_not_made() {
             let Cell { promised, kept, over, samples } = cell(case, measure, bound, &truth);
             let name = format!("{name}={bound}");
             println!("{:<32} {name:<10} {promised:>6} {kept:>6} {over:>6.2} {samples:>8.0}", case.name);
-            any |= promised > 0;
+            any |= 2 * promised >= SEEDS as usize;
             if 10 * kept < 9 * promised {
                 broken.push(format!("{}, {name}: {kept} of {promised}", case.name));
+            }
+            if FRIENDLY.contains(&case.name) && !(over <= 3.0) {
+                broken.push(format!("{}, {name}: promised {over} times the truth", case.name));
             }
         }
         with_promise += usize::from(any);

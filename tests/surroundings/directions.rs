@@ -11,7 +11,8 @@ use std::f64::consts::PI;
 fn map(width: usize, luminances: &[f32]) -> Map {
     let light = Arena::default().add(Spectrum::Constant(1.0));
     let tints = luminances.iter().map(|y| Tint { scale: 2.0 * y, ..Tint::BLACK }).collect();
-    Map::new([width as u32, (luminances.len() / width) as u32], tints, luminances, light, 0.0)
+    let brightest = luminances.iter().copied().fold(0.0, f32::max);
+    Map::new([width as u32, (luminances.len() / width) as u32], tints, (luminances, brightest), light, 0.0)
 }
 
 fn solid_angle(width: usize, height: usize, row: usize) -> f64 {

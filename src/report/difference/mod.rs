@@ -16,8 +16,8 @@
 //!   noise of each shows in their sum only. What is no more than the rounding of single precision is none. Without a difference the jackknife's reach is about 1.5 times too wide (8 replicates; Efron &
 //!   Stein 1981): false alarms are rarer than the nominal 3.5 % (`tests/compare_statistics.rs`).
 //!
-//! What no path has found is in no replicate. Where light comes by ways that nothing aims at, the interval of ΔE ends as much higher, and
-//! that of the energy is as much wider, as such light may change them ([`super::bound`]): a model has it or has it not.
+//! What no path has found is in no replicate. Where light comes by ways that nothing aims at, the interval of ΔE ends as much higher, begins
+//! twice as much lower, and that of the energy is as much wider, as such light may change them ([`super::bound`]): a model has it or has it not.
 //!
 //! Limits: ΔE2000 is no norm, and L*a*b* bends: where a pixel's noise is as large as its colour, M may fall short by the bend.
 //!
@@ -149,8 +149,13 @@ impl Difference {
             return self;
         }
         let luminance = colors.iter().map(|xyz| f64::from(xyz[1])).sum::<f64>() / colors.len() as f64;
-        self.missed = Missed { delta_e2000: unseen.mean_de(view, colors), energy: unseen.luminance() / luminance };
-        self.delta_e2000.interval_95[1] += self.missed.delta_e2000;
+        // Of a black reference no share is known.
+        let energy = if luminance > 0.0 { unseen.luminance() / luminance } else { 0.0 };
+        self.missed = Missed { delta_e2000: unseen.mean_de(view, colors), energy };
+        // Light that both have lies over what differs: as much for each picture.
+        let [low, high] = self.delta_e2000.interval_95;
+        let missed = self.missed.delta_e2000;
+        self.delta_e2000.interval_95 = [(low - 2.0 * missed).max(0.0), high + missed];
         let [low, high] = self.energy.interval_95;
         self.energy.interval_95 = [low - self.missed.energy, high + self.missed.energy];
         self

@@ -58,7 +58,8 @@ impl Resolver<'_> {
             Some(degrees) => self.finite(degrees, "rotate")?.to_radians(),
             None => 0.0,
         };
-        let map = Map::new(size, tints, &luminances, light, rotation);
+        let brightest = colors.rgb.iter().flatten().copied().fold(0.0, f32::max);
+        let map = Map::new(size, tints, (&luminances, brightest), light, rotation);
         Ok(Surroundings { map, luminance: mean * scale, scale })
     }
 
