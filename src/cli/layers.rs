@@ -107,8 +107,11 @@ impl Plan {
             return Err(SceneError::new(message));
         }
         let channels = 3 * self.aovs.len() + self.wanted().bands;
+        let a_pixel = self.wanted().bytes_per_pixel();
         let parts = if self.aim.is_some() && !self.compares() { Parts::BYTES } else { 0 };
-        memory::check(window, self.wanted().bytes_per_pixel() + parts, channels)?;
+        // One half is kept as it was while it judges the other one.
+        let kept = if self.judged { a_pixel.div_ceil(2) } else { 0 };
+        memory::check(window, a_pixel + parts + kept, channels)?;
         Layers::new([scene.settings.width, scene.settings.height], window, self.wanted()).map_err(SceneError::new)
     }
 

@@ -3,12 +3,13 @@
 //! Each half of the picture, the fields of a chessboard, is judged by the other one: where a half has how many samples, and when it has
 //! enough of them. So the number of a pixel's samples depends on nothing that its half has drawn, and its mean is what it is without any
 //! decision. A picture that stops when it happens to look quiet, by its own samples, is darker in the mean: light that few paths find is
-//! found late, and then thinned by the samples that it asks for (2 to 4 % on caustics before this was so; `tests/promises`).
+//! found late, and then thinned by the samples that it asks for (10 % on caustics; `tests/promises`).
 //!
 //! For the same reason a half that has enough is kept as it is, and goes on only to judge the other one: what it would say of it must
 //! not depend on when it itself was told to stop. When a half is judged next depends on its last judgement alone.
 //!
-//! What is promised of a half is what the other half promises after as many samples; both promises together are the picture's.
+//! What is promised of a half is what the noise of the other half would be with the samples of the first: how many the other half has was
+//! decided by what the first one drew. Both promises together are the picture's.
 
 use super::effort::{Measure, Reached, Target};
 use super::show;
@@ -69,7 +70,7 @@ impl Work<'_> {
         let noise = Noise::of_each(layers.replicates(), width, &view);
         let shares = Shares::new(&noise, width, aim(goal.targets), FEWEST);
         let (mut mean, mut kept) = (first as f64, None);
-        let mut promises = goal.promises(layers, &view, mean);
+        let mut promises = [0, 1].map(|which| goal.promise(layers, &view, mean, which));
         loop {
             self.tell(mean, goal.targets, &promises);
             let affordable = goal.affordable(started.elapsed(), mean);
@@ -84,11 +85,12 @@ impl Work<'_> {
             mean = nearest(&promises).min(affordable).min(goal.most as f64);
             self.go_on(layers, &shares.ranges(counts(layers), |_| mean, each));
             let (_, view) = viewed(layers, develop)?;
-            let over = mean >= affordable || mean >= goal.most as f64;
-            let due = |promise: &Promise| !promise.keeps() && (over || mean >= promise.next);
-            let judged =
-                promises.iter_mut().zip(goal.promises(layers, &view, mean)).filter(|(promise, _)| due(promise));
-            judged.for_each(|(promise, now)| *promise = now);
+            let last = mean >= affordable || mean >= goal.most as f64;
+            for (which, promise) in promises.iter_mut().enumerate() {
+                if !promise.keeps() && (last || mean >= promise.next) {
+                    *promise = goal.promise(layers, &view, mean, which);
+                }
+            }
         }
     }
 
@@ -105,24 +107,22 @@ impl Work<'_> {
 }
 
 impl Goal<'_> {
-    /// What each half is told by the other one.
-    fn promises(&self, layers: &Layers, view: &View, mean: f64) -> [Promise; 2] {
-        // How many samples there are tells nothing of what they found: here both halves count.
+    /// What a half is told by the other one after so many samples a pixel.
+    fn promise(&self, layers: &Layers, view: &View, mean: f64, which: usize) -> Promise {
+        let (counts, width): (Vec<u64>, _) = (counts(layers).collect(), width(layers));
+        let own = counts.iter().enumerate().filter(|(at, _)| half(*at, width) == which);
         let unseen = Unseen {
             brightest: view.display_f64(self.chance.brightest),
-            samples: counts(layers).min().unwrap_or(0) as f64,
-            pixels: layers.film().pixels().len() as f64,
+            samples: own.map(|(_, count)| *count).min().unwrap_or(1) as f64,
+            pixels: counts.len() as f64,
         };
-        [1, 0].map(|other| {
-            let noise = Noise::of_half(layers.replicates(), width(layers), view, other);
-            let bounds: Vec<Bound> =
-                self.targets.iter().map(|target| target.measure.of(&noise, view, &unseen)).collect();
-            let shares = self.targets.iter().zip(&bounds).map(|(target, bound)| bound.promised / target.bound);
-            let excess = shares.fold(0.0, f64::max);
-            // Errors fall at least as the root of the samples.
-            let next = mean * (LEAP.0 * excess * excess).clamp(STEP, LEAP.1);
-            Promise { bounds, excess, next }
-        })
+        let noise = Noise::of_half(layers.replicates(), &counts, width, view, 1 - which);
+        let bounds: Vec<Bound> = self.targets.iter().map(|target| target.measure.of(&noise, view, &unseen)).collect();
+        let shares = self.targets.iter().zip(&bounds).map(|(target, bound)| bound.promised / target.bound);
+        let excess = shares.fold(0.0, f64::max);
+        // Errors fall at least as the root of the samples.
+        let next = mean * (LEAP.0 * excess * excess).clamp(STEP, LEAP.1);
+        Promise { bounds, excess, next }
     }
 
     /// Samples a pixel that there is time for, if that goes on as it went.

@@ -8,15 +8,16 @@
 //!   order, E. A. Cornish & R. A. Fisher, "Moments and cumulants in the specification of distributions", Revue de l'Institut
 //!   International de Statistique 5 (1938)).
 //! - What nobody has found yet ([`Unseen`]). Of paths that meet a light by chance, fewer than 3 are missing with 95 %
-//!   (e⁻³ = 0.05), whatever they bring. Each brings at most the brightest light that has such a way. ΔE grows less than light does, so that the mean
-//!   is largest where what is missing lies evenly on all pixels, the 95th percentile where it lies on one in twenty, and the RMSE
-//!   where it would have been found by the pixels of the fewest samples.
+//!   (e⁻³ = 0.05), whatever they bring. Each brings at most the brightest light that has such a way. In
+//!   the mean ΔE it is taken to lie evenly on all pixels, as ΔE grows less than light does; in the 95th percentile where it lifts that
+//!   most (`lift`); in the RMSE where it would have been found by the pixels of the fewest samples.
 //!
 //! The mean ΔE of a pixel is at most √(8/3π) = 0.92 of its root mean square, where errors are normal (the same in three directions; 0.80
 //! in one). The 95th percentile is that of pixels whose ΔE is spread like |N(0, 1)|, which has the longest tail of those that normal
 //! errors make.
 
 use super::View;
+use super::lift::{self, Seen};
 use super::noise::Noise;
 use crate::spectrum::{Xyz, ciede2000};
 use rayon::prelude::*;
@@ -38,6 +39,9 @@ const SQUARE_OF_NORMAL: f64 = 2.0;
 
 /// What the 95th percentile is of.
 const PERCENTILE: f64 = 0.95;
+
+/// Pixels whose errors are enough to know a percentile by.
+const ENOUGH: usize = 1 << 16;
 
 /// |N(0, 1)| at the middles of sixteen equally likely parts.
 const HALF_NORMAL: [f64; 16] = [
@@ -69,9 +73,11 @@ impl Unseen {
     /// For pictures in which everything is aimed at.
     pub const NOTHING: Self = Self { brightest: [0.0; 3], samples: 1.0, pixels: 1.0 };
 
-    /// Mean ΔE2000 at most that it makes in pixels of these colours, relative to display white.
+    /// Mean ΔE2000 that it makes if it lies evenly on pixels of these colours, relative to display white.
     pub fn mean_de(&self, view: &View, colors: &[[f32; 3]]) -> f64 {
-        mean(&self.delta_e(view, colors, 1.0))
+        // Summed in order, so that looks end a render at the same sample everywhere.
+        let each: Vec<f64> = colors.par_iter().map(|color| self.delta_e(view, color, 1.0)).collect();
+        each.iter().sum::<f64>() / colors.len() as f64
     }
 
     /// Mean luminance that may be missing, relative to display white.
@@ -79,20 +85,26 @@ impl Unseen {
         self.evenly(1.0)[1]
     }
 
-    /// If it lies evenly on a share of the pixels.
-    fn evenly(&self, share: f64) -> Xyz {
-        self.brightest.map(|c| EVENTS * c / (self.samples * self.pixels * share))
+    /// What each pixel has of so many times the light, if it lies evenly.
+    fn evenly(&self, amount: f64) -> Xyz {
+        self.brightest.map(|c| amount * EVENTS * c / (self.samples * self.pixels))
     }
 
-    /// ΔE2000 that it makes in pixels of these colours if it lies evenly on a share of them, and each is one of these.
-    fn delta_e(&self, view: &View, colors: &[[f32; 3]], share: f64) -> Vec<f64> {
-        let missing = self.evenly(share);
-        let of = |color: &[f32; 3]| {
-            let color = color.map(f64::from);
-            let brighter = std::array::from_fn(|i| color[i] + missing[i]);
-            if color == brighter { 0.0 } else { ciede2000(view.lab(color), view.lab(brighter)) }
-        };
-        colors.par_iter().map(of).collect()
+    /// ΔE2000 that so many times the even share makes in a pixel of a colour.
+    fn delta_e(&self, view: &View, color: &[f32; 3], amount: f64) -> f64 {
+        let missing = self.evenly(amount);
+        let color = color.map(f64::from);
+        let brighter = std::array::from_fn(|i| color[i] + missing[i]);
+        if color == brighter { 0.0 } else { ciede2000(view.lab(color), view.lab(brighter)) }
+    }
+
+    /// ΔE2000 that amounts of it make in a pixel of a colour: more light is taken to make no less.
+    fn rise(&self, view: &View, color: &[f32; 3]) -> lift::Rise {
+        let mut most: f64 = 0.0;
+        lift::AMOUNTS.map(|amount| {
+            most = most.max(self.delta_e(view, color, amount));
+            most
+        })
     }
 }
 
@@ -104,26 +116,26 @@ impl Bound {
     pub fn of_mean_de(noise: &Noise, view: &View, unseen: &Unseen) -> Self {
         let (estimate, upper) = mean_and_upper(&noise.de, noise.sharing, 0.0);
         let [estimate, upper] = [estimate, upper].map(|de| MEAN_OF_LENGTH * de);
-        let missed = unseen.mean_de(view, &noise.colors);
-        Self::new(estimate, missed, upper + missed)
+        Self::joined(estimate, upper, unseen.mean_de(view, &noise.colors))
     }
 
     /// 95th percentile of ΔE2000.
     pub fn of_de95(noise: &Noise, view: &View, unseen: &Unseen) -> Self {
-        let pixels = (noise.de.len() as f64).max(1.0);
-        // The rank of a percentile among so many errors.
-        let upper = PERCENTILE + CONFIDENCE * (PERCENTILE * (1.0 - PERCENTILE) / pixels).sqrt();
-        let missing = unseen.delta_e(view, &noise.colors, 1.0 - PERCENTILE);
-        let none = vec![0.0; noise.de.len()];
-        let spread = |missing: &[f64]| {
-            let pixels = noise.de.par_iter().zip(missing);
-            let mut all: Vec<f64> =
-                pixels.flat_map_iter(|(de, missing)| HALF_NORMAL.map(|z| z * f64::from(*de) + missing)).collect();
-            all.par_sort_unstable_by(f64::total_cmp);
-            all
-        };
-        let (seen, all) = (spread(&none), spread(&missing));
-        Self::new(at(&seen, PERCENTILE), at(&all, PERCENTILE) - at(&seen, PERCENTILE), at(&all, upper))
+        let chosen = spread(noise.de.len());
+        let of =
+            |(pixel, at): (usize, &usize)| HALF_NORMAL.map(|z| Seen { error: z * f64::from(noise.de[*at]), pixel });
+        let mut seen: Vec<Seen> = chosen.iter().enumerate().flat_map(of).collect();
+        seen.par_sort_unstable_by(|a, b| a.error.total_cmp(&b.error));
+        // The rank of a percentile among as many errors as the picture has.
+        let rank = PERCENTILE + CONFIDENCE * (PERCENTILE * (1.0 - PERCENTILE) / unseen.pixels).sqrt();
+        let [estimate, upper] =
+            [PERCENTILE, rank].map(|rank| place(seen.len(), rank).map_or(f64::INFINITY, |at| seen[at].error));
+        if unseen.luminance() == 0.0 || !upper.is_finite() {
+            return Self::joined(estimate, upper, 0.0);
+        }
+        let rises: Vec<_> = chosen.par_iter().map(|at| unseen.rise(view, &noise.colors[*at])).collect();
+        let needed = seen.len() - place(seen.len(), PERCENTILE).unwrap_or(0);
+        Self::joined(estimate, upper, lift::highest(&seen, &rises, needed) - estimate)
     }
 
     /// Root mean square error of linear sRGB.
@@ -131,23 +143,32 @@ impl Bound {
         let (estimate, upper) = mean_and_upper(&noise.squares, 1.0, SQUARE_OF_NORMAL);
         let light: f64 = view.rgb(unseen.brightest).iter().map(|c| c * c / 3.0).sum();
         let missed = EVENTS * light / (unseen.samples * unseen.samples * unseen.pixels);
-        Self::new(estimate.sqrt(), missed.sqrt(), (upper + missed).sqrt())
+        let Self { estimate, missed, promised } = Self::joined(estimate, upper, missed);
+        Self { estimate: estimate.sqrt(), missed: missed.sqrt(), promised: promised.sqrt() }
     }
 
-    fn new(estimate: f64, missed: f64, promised: f64) -> Self {
+    /// Of an error below `upper` with 95 %, to which light that was not found adds less than `missed` with 95 %: both luckless at once is
+    /// rarer. Limits of a sum lie as far off as the root of the squares of what those of its parts do (G. Y. Zou & A. Donner,
+    /// "Construction of confidence limits about effect measures", Statistics in Medicine 27 (2008)).
+    fn joined(estimate: f64, upper: f64, missed: f64) -> Self {
+        let promised = estimate + libm::hypot(upper - estimate, missed);
         // Of no pixels, too.
         if promised.is_finite() { Self { estimate, missed, promised } } else { Self::UNKNOWN }
     }
 }
 
-/// The value that a share of sorted ones does not exceed; infinite if there are none.
-fn at(sorted: &[f64], share: f64) -> f64 {
-    let place = libm::ceil(share * sorted.len() as f64) as usize;
-    sorted.get(place.clamp(1, sorted.len().max(1)) - 1).copied().unwrap_or(f64::INFINITY)
+/// Indices of at most [`ENOUGH`] of so many pixels, which lie all over the picture and on no grid.
+fn spread(pixels: usize) -> Vec<usize> {
+    let count = pixels.min(ENOUGH);
+    let step = pixels as f64 / count as f64;
+    let golden = |i: usize| (0.618_033_988_749_895 * i as f64).fract();
+    (0..count).map(|i| (step * (i as f64 + golden(i))) as usize).collect()
 }
 
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
+/// The index among sorted ones that a share of them do not exceed.
+fn place(count: usize, share: f64) -> Option<usize> {
+    let place = libm::ceil(share * count as f64) as usize;
+    (count > 0).then(|| place.clamp(1, count) - 1)
 }
 
 /// The mean of values of which `sharing` count as one, and what it is below with 95 %, where what is promised differs from each value by
@@ -183,7 +204,7 @@ mod tests {
         let known = Noise::of(&[seen; 4], 2, &view());
         assert!(all(&known, &Unseen::NOTHING).iter().all(|bound| bound.promised > 0.0 && bound.promised < 10.0));
         let unknown = Noise::of(&[seen, seen, seen, Replicates::default()], 2, &view());
-        let nobody = Noise::of_half(&[seen], 1, &view(), 1);
+        let nobody = Noise::of_half(&[seen], &[16], 1, &view(), 1);
         assert_eq!(all(&unknown, &Unseen::NOTHING), [Bound::UNKNOWN; 3]);
         assert_eq!(all(&nobody, &Unseen::NOTHING), [Bound::UNKNOWN; 3]);
     }
@@ -192,8 +213,8 @@ mod tests {
         Noise { de: vec![0.0; pixels], squares: vec![0.0; pixels], colors: vec![[0.2; 3]; pixels], sharing: 1.0 }
     }
 
-    /// 3 paths of 4 × white among 100 pixels of 60 samples: 0.002 of white everywhere, 0.04 in one pixel of twenty, and 3 (4/60)² / 100 if
-    /// they were to come.
+    /// 3 paths of 4 × white among 100 pixels of 60 samples: 0.002 of white everywhere, all of it in the 81 of 1,600 errors that the
+    /// percentile needs, and 3 (4/60)² / 100 if they were to come.
     #[test]
     fn what_may_be_missing_is_added() {
         let view = view();
@@ -202,13 +223,12 @@ mod tests {
         let from = [0.2; 3].map(|c: f32| f64::from(c));
         let with =
             |share: f64| ciede2000(view.lab(from), view.lab(std::array::from_fn(|i| from[i] + share * white[i])));
-        let expected = [with(0.002), with(0.04), (3.0_f64 * (4.0 / 60.0) * (4.0 / 60.0) / 100.0).sqrt()];
-        for (found, expected) in all(&grey(100), &unseen).iter().zip(expected) {
+        let expected =
+            [with(0.002), with(0.002 * 1600.0 / 81.0), (3.0_f64 * (4.0 / 60.0) * (4.0 / 60.0) / 100.0).sqrt()];
+        for ((found, expected), within) in all(&grey(100), &unseen).iter().zip(expected).zip([1e-5, 0.02, 1e-5]) {
             assert_eq!(found.estimate, 0.0);
-            assert!(
-                (found.missed / expected - 1.0).abs() < 1e-5 && found.missed == found.promised,
-                "{found:?} {expected}"
-            );
+            assert!((found.missed / expected - 1.0).abs() < within, "{found:?} {expected}");
+            assert!((found.promised / found.missed - 1.0).abs() < 1e-12, "{found:?}");
         }
     }
 

@@ -24,6 +24,7 @@ pub mod f0;
 pub mod fresnel;
 mod grid;
 pub mod jackknife;
+mod lift;
 pub mod markup;
 pub mod noise;
 pub mod parts;

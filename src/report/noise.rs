@@ -51,11 +51,21 @@ impl Noise {
         Self::among(&pixels, width, view, 1.0, |at, other| at == other)
     }
 
-    /// Of the pixels of one [`half`], by themselves alone.
-    pub fn of_half(replicates: &[Replicates], width: usize, view: &View, which: usize) -> Self {
+    /// Of the pixels of one [`half`], by themselves alone, if they had as many samples as those of the other half beside them. So it says
+    /// of these what it would say however many samples its own pixels had.
+    pub fn of_half(replicates: &[Replicates], counts: &[u64], width: usize, view: &View, which: usize) -> Self {
         let in_it = |at: usize| half(at, width) == which;
+        let of = |(at, pixel): (usize, &Replicates)| {
+            if !in_it(at) {
+                return Default::default();
+            }
+            let (mean, covariance) = moments(pixel.means(), view);
+            let more = beside(counts, width, at) * counts[at] as f64;
+            (mean, covariance.map(|c| (f64::from(c) * more) as f32))
+        };
+        let pixels: Vec<_> = replicates.par_iter().enumerate().map(of).collect();
         // Of 3 × 3 pixels those that touch by corners.
-        Self::among(&all(replicates, view), width, view, 5.0, |at, other| in_it(at) && in_it(other))
+        Self::among(&pixels, width, view, 5.0, |at, other| in_it(at) && in_it(other))
     }
 
     /// Of pixels that speak for themselves, and by which of their neighbours.
@@ -85,6 +95,21 @@ impl Noise {
 /// The halves of a picture, like the fields of a chessboard: what is decided about one is decided by the other.
 pub fn half(at: usize, width: usize) -> usize {
     (at % width + at / width) % 2
+}
+
+/// Mean of 1/n over the pixels beside one, or its own where there is no other.
+fn beside(counts: &[u64], width: usize, at: usize) -> f64 {
+    let x = at % width;
+    let left = (x > 0).then(|| at - 1);
+    let right = (x + 1 < width).then(|| at + 1);
+    let (mut sum, mut count) = (0.0, 0.0);
+    for other in [left, right, at.checked_sub(width), Some(at + width)].into_iter().flatten() {
+        if let Some(samples) = counts.get(other) {
+            sum += 1.0 / *samples as f64;
+            count += 1.0;
+        }
+    }
+    if count > 0.0 { sum / count } else { 1.0 / counts[at] as f64 }
 }
 
 fn all(replicates: &[Replicates], view: &View) -> Vec<(Xyz, Covariance)> {
@@ -127,4 +152,31 @@ fn trace(matrix: &Matrix3, &[xx, yy, zz, xy, yz, zx]: &[f64; 6]) -> f64 {
     let row = |[a, b, c]: [f64; 3]| a * a * xx + b * b * yy + c * c * zz + 2.0 * (a * b * xy + b * c * yz + c * a * zx);
     let sum = matrix.0.into_iter().map(row).sum::<f64>();
     if sum.is_finite() { sum.max(0.0) } else { f64::INFINITY }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a half says depends on how many samples the other half has, and on nothing that its own number decides: its covariance falls as
+    /// its samples grow.
+    #[test]
+    fn a_half_speaks_of_as_many_samples_as_its_neighbours_have() {
+        let view = View::new(0.0, [0.95, 1.0, 1.09]);
+        let mut pixel = Replicates::default();
+        (0..16).for_each(|i| pixel.add(i % 8, [1.0, 1.0 + 0.1 * (i % 8) as f32, 1.0]));
+        // Squares of the pixels of the second half among 2 × 2, beside pixels of these numbers of samples.
+        let squares = |counts: [u64; 4]| Noise::of_half(&[pixel; 4], &counts, 2, &view, 1).squares;
+        let same = squares([16; 4]);
+        assert_eq!(same, Noise::of(&[pixel; 4], 2, &view).squares[..2]);
+        let close = |found: Vec<f32>, times: f32| {
+            found
+                .iter()
+                .zip(&same)
+                .for_each(|(a, b)| assert!((a / b / times - 1.0).abs() < 1e-6, "{found:?} {same:?}"));
+        };
+        // 1/8 and 1/24 are 1/12 in the mean.
+        close(squares([8, 16, 16, 24]), 16.0 / 12.0);
+        close(squares([16, 32, 32, 16]), 2.0);
+    }
 }

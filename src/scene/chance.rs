@@ -13,11 +13,11 @@
 
 use super::{Decision, MediumId, Object, Pattern, Scene, Surface, listed};
 use crate::bsdf::conductor::MIRROR_ALPHA;
-use crate::geometry::{Bounds, ShapeId};
+use crate::geometry::{Bounds, Shape, ShapeId};
 use crate::light::{Emitter, Environment, Source};
-use crate::spectrum::{Density, Nodes, SpectrumId, Xyz, radiance_xyz};
+use crate::spectrum::{Density, Nodes, Spectrum, SpectrumId, Xyz, radiance_xyz};
 use std::collections::{BTreeMap, BTreeSet};
-use std::f64::consts::PI;
+use std::f64::consts::{PI, SQRT_2};
 
 /// From this α on, lobes are wide enough to be met by one path in a few: what they bring is found like the light on a matt surface.
 const WIDE: f64 = 0.15;
@@ -28,7 +28,7 @@ const FEW: usize = 64;
 /// The most that one path brings along by a way that nothing aims at.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Chance {
-    /// XYZ in cd/m²; 0 where everything that shines is aimed at from everywhere.
+    /// XYZ in cd/m²; 0 where nothing shines.
     pub brightest: Xyz,
     /// What shines so, and which way it comes, for people.
     pub way: String,
@@ -40,7 +40,7 @@ pub fn of(scene: &Scene, wavelengths: &Density) -> (Chance, Decision) {
     let chance = look.brightest().map(|way| way.told(&look)).unwrap_or_default();
     let enclosed = enclosed(scene);
     let reason = match (chance.way.as_str(), enclosed.as_slice()) {
-        ("", []) => "every light is aimed at from every surface that it reaches".into(),
+        ("", []) => "nothing shines on anything".into(),
         (way, []) => way.to_owned(),
         (way, enclosed) => format!("no shadow ray ever reaches {}; {way}", enclosed.join(", ")),
     };
@@ -54,12 +54,21 @@ fn radiances(scene: &Scene, wavelengths: &Density) -> BTreeMap<SpectrumId, Xyz> 
     let (observer, nodes) = (&scene.picture.observer, Nodes::new(wavelengths));
     let shining = scene.lights.emitters().iter().map(|emitter| emitter.radiance).chain(around(scene));
     let ids: BTreeSet<SpectrumId> = shining.collect();
-    let largest = |id: SpectrumId| {
+    let (mut kinds, mut all) = (Vec::<(&Spectrum, Xyz)>::new(), BTreeMap::new());
+    for id in ids {
+        // Lamps of one kind differ in their strength only.
         let spectrum = scene.spectra.get(id);
-        let uneven = 1.0 + 2.0 * nodes.variance(spectrum, observer).sqrt();
-        radiance_xyz(spectrum, observer).map(|c| c * uneven)
-    };
-    ids.into_iter().map(|id| (id, largest(id))).collect()
+        let kind = spectrum.unscaled();
+        let known = kinds.iter().find(|(known, _)| *known == kind).map(|(_, xyz)| *xyz);
+        let xyz = known.unwrap_or_else(|| {
+            let uneven = 1.0 + 2.0 * nodes.variance(kind, observer).sqrt();
+            let xyz = radiance_xyz(kind, observer).map(|c| c * uneven);
+            kinds.push((kind, xyz));
+            xyz
+        });
+        all.insert(id, xyz.map(|c| c * spectrum.factor()));
+    }
+    all
 }
 
 /// Spectra of surroundings that are constant or a gradient, which are found by the directions that surfaces choose.
@@ -99,7 +108,7 @@ impl<'a> Lobes<'a> {
         let least = all
             .iter()
             .map(|(_, alpha)| *alpha)
-            .filter(|alpha| (MIRROR_ALPHA.into()..WIDE).contains(alpha))
+            .filter(|alpha| *alpha > 0.0 && *alpha < WIDE)
             .fold(f64::INFINITY, f64::min);
         let with = |wanted: f64| all.iter().filter(|(_, alpha)| *alpha == wanted).map(|(name, _)| *name).collect();
         let scatters = |object: &Object| scene.surfaces[object.surface as usize] != Surface::Black;
@@ -112,25 +121,21 @@ impl<'a> Lobes<'a> {
     }
 }
 
-/// The least α of an object's surface, as sharp as its sharpest lobe, 0 if it is smooth; `None` if it has no lobe.
+/// The α of the sharpest lobe of an object's surface, 0 if it is smooth; `None` if it has no lobe.
 fn alpha(scene: &Scene, object: &Object) -> Option<f64> {
-    let own = match scene.surfaces[object.surface as usize] {
+    let (own, sharper) = match scene.surfaces[object.surface as usize] {
         Surface::Black | Surface::Diffuse { .. } => return None,
-        Surface::Conductor { alpha, .. } => alpha,
-        Surface::Dielectric(interface) => interface.alpha,
+        Surface::Conductor { alpha, .. } => (alpha, 1.0),
+        Surface::Dielectric(interface) => {
+            let eta = index(scene, interface.medium);
+            (interface.alpha, ((eta - 1.0) / (SQRT_2 * eta)).max(THINNEST))
+        }
     };
     let least = match scene.patterns.get(&object.surface) {
         Some(Pattern { alpha: Some(alphas), .. }) => alphas.all().iter().copied().fold(own, f32::min),
         _ => own,
     };
-    let bent = match scene.surfaces[object.surface as usize] {
-        Surface::Dielectric(interface) => {
-            let eta = index(scene, interface.medium);
-            (eta - 1.0) / (std::f64::consts::SQRT_2 * eta)
-        }
-        _ => 1.0,
-    };
-    Some(if least < MIRROR_ALPHA { 0.0 } else { f64::from(least) * bent.max(THINNEST) })
+    Some(if least < MIRROR_ALPHA { 0.0 } else { f64::from(least) * sharper })
 }
 
 /// What is looked at.
@@ -210,11 +215,7 @@ impl<'a> Look<'a> {
         let (scene, radiance) = (self.scene, self.radiances[&emitter.radiance]);
         match (emitter.source, &scene.lights.environment) {
             (Source::Shape { id, .. }, _) => {
-                let covered = scene.world.shape(id).map(|shape| {
-                    let radius = f64::from(shape.bounds().size().length()) / 2.0;
-                    let ratio = radius / distance(scene, &shape.bounds()).max(radius);
-                    PI * ratio * ratio
-                });
+                let covered = scene.world.shape(id).map(|shape| covered(shape, distance(scene, &shape.bounds())));
                 Light { radiance, solid_angle: covered.unwrap_or(PI), is_met: true }
             }
             (Source::Sun(sun), _) => Light { radiance, solid_angle: sun.projected_solid_angle(), is_met: true },
@@ -258,6 +259,26 @@ struct Light {
     solid_angle: f64,
     /// Whether a path can meet it.
     is_met: bool,
+}
+
+/// Largest projected solid angle of a lamp whose middle is so far from what it lights, sr: that of a ball around it, or of the disk around a
+/// flat one.
+fn covered(shape: &Shape, distance: f64) -> f64 {
+    let around = f64::from(shape.bounds().size().length()) / 2.0;
+    let (square, away) = (around * around, distance * distance);
+    match shape {
+        Shape::Rectangle(_) => PI * square / (square + away),
+        // The box around a disk has twice its square.
+        Shape::Disk(disk) => {
+            let square = f64::from(disk.area()) / PI;
+            PI * square / (square + away)
+        }
+        Shape::Sphere(sphere) => {
+            let square = f64::from(sphere.radius()) * f64::from(sphere.radius());
+            PI * square / away.max(square)
+        }
+        Shape::Convex(_) | Shape::Mesh(_) => PI * square / away.max(square),
+    }
 }
 
 /// Solid angle that a point is given, sr: less than any lobe has.
@@ -341,8 +362,8 @@ mod tests {
     #[test]
     fn a_lamp_out_of_view_over_matt_things_is_as_bright_as_what_it_lights() {
         let (chance, _) = chance("");
-        // Its ball of radius 0.1 √3 stands 4 over the floor.
-        assert!((chance.brightest[1] / (1000.0 * 0.03 / 16.0) - 1.0).abs() < 0.15, "{chance:?}");
+        // Its ball of radius 0.1 stands 4 over the floor.
+        assert!((chance.brightest[1] / (1000.0 * 0.01 / 16.0) - 1.0).abs() < 0.15, "{chance:?}");
         assert!(chance.way.contains("by way of what it lights"), "{chance:?}");
     }
 
@@ -359,7 +380,7 @@ mod tests {
         assert!(chance(in_view).0.way.contains("`other`") && chance(in_view).0.way.contains("into the camera"));
     }
 
-    /// The lamp's ball of radius 0.1 √3 stands 3.4 above the sphere's box: π (0.1732 / 3.4)² / (2 π α²) of 1000.
+    /// The lamp's ball of radius 0.1 stands 3.4 above the sphere's box: π (0.1 / 3.4)² / (2 π α²) of its luminance.
     #[test]
     fn sharp_lobes_bring_what_the_lamp_fills_of_them() {
         let satin = |alpha: f64| {
@@ -368,7 +389,7 @@ mod tests {
                  [[objects]]\nmaterial = \"satin\"\nshape.sphere = {{ radius = 0.3, center = [0, 0, 0.3] }}\n"
             )
         };
-        let expected = luminance(&satin(0.01)) * 0.03 / (3.4 * 3.4 * 2.0 * 0.05 * 0.05);
+        let expected = luminance(&satin(0.01)) * 0.01 / (3.4 * 3.4 * 2.0 * 0.05 * 0.05);
         assert!((luminance(&satin(0.05)) / expected - 1.0).abs() < 1e-3, "{} {expected}", luminance(&satin(0.05)));
         // Wide lobes count as matt.
         assert!(luminance(&satin(0.3)) < 0.01 * luminance(&satin(0.05)));

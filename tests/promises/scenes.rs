@@ -7,31 +7,30 @@ pub struct Case {
     pub targets: [f64; 3],
 }
 
-/// A floor that is looked at from above, and the sky over it.
-const FLOOR: &str = r#"
-meters_per_unit = 0.01
-[render]
-width = 16
-height = 16
-[camera]
-position = [0, -6, 4]
-look_at = [0, 0, 0.3]
-fov = 28
-[environment.constant]
-spectrum = "D65"
-luminance = 1
-[materials.grey.diffuse]
-reflectance = 0.5
-[materials.red.diffuse]
-reflectance = { rgb = [0.7, 0.1, 0.1] }
-[[objects]]
-material = "grey"
-shape.rectangle = { size = [40, 40] }
-"#;
+/// A picture of a camera under a sky of so many cd/m².
+fn framed(exposure: f64, camera: &str, sky: f64) -> String {
+    format!(
+        "meters_per_unit = 0.01\nrender = {{ width = 16, height = 16 }}\npicture.exposure = {exposure}\n\
+         camera = {{ {camera} }}\nenvironment.constant = {{ spectrum = \"D65\", luminance = {sky} }}\n"
+    )
+}
 
+/// A matt floor that is looked at from above.
 fn on_floor(name: &'static str, exposure: f64, rest: &str, targets: [f64; 3]) -> Case {
-    let text = FLOOR.replacen("[camera]", &format!("[picture]\nexposure = {exposure}\n[camera]"), 1) + rest;
-    Case { name, text, targets }
+    let camera = "position = [0, -6, 4], look_at = [0, 0, 0.3], fov = 28";
+    let text = framed(exposure, camera, 1.0)
+        + &matt("grey", "0.5")
+        + &matt("red", "{ rgb = [0.7, 0.1, 0.1] }")
+        + &floor("grey");
+    Case { name, text: text + rest, targets }
+}
+
+fn matt(name: &str, reflectance: &str) -> String {
+    format!("[materials.{name}.diffuse]\nreflectance = {reflectance}\n")
+}
+
+fn floor(material: &str) -> String {
+    format!("[[objects]]\nmaterial = \"{material}\"\nshape.rectangle = {{ size = [40, 40] }}\n")
 }
 
 /// A scene of the repository, made small.
@@ -192,29 +191,9 @@ pub fn all() -> Vec<Case> {
 /// Lamps far out of focus.
 fn bokeh() -> Case {
     let lamps = [[-1.5, 12.0, 1.0], [0.0, 14.0, 0.4], [1.2, 11.0, 0.2], [0.4, 13.0, 1.4]];
-    let text = r#"
-meters_per_unit = 0.01
-[render]
-width = 16
-height = 16
-[picture]
-exposure = 3
-[camera]
-position = [0, -10, 0.6]
-look_at = [0, 0, 0.6]
-focal_length_mm = 60
-f_number = 1.4
-focus_distance = 10
-[environment.constant]
-spectrum = "D65"
-luminance = 2
-[materials.grey.diffuse]
-reflectance = 0.4
-[[objects]]
-material = "grey"
-shape.sphere = { center = [0, 0, 0.5], radius = 0.5 }
-"#
-    .to_owned();
+    let camera =
+        "position = [0, -10, 0.6], look_at = [0, 0, 0.6], focal_length_mm = 60, f_number = 1.4, focus_distance = 10";
+    let text = framed(3.0, camera, 2.0) + &matt("grey", "0.4") + &ball("grey", [0.0, 0.0, 0.5], 0.5);
     Case { name: "bokeh", text: text + &lamps.map(|at| lamp(at, 0.01, 1e6)).concat(), targets: [2.0, 8.0, 0.3] }
 }
 
@@ -222,8 +201,8 @@ shape.sphere = { center = [0, 0, 0.5], radius = 0.5 }
 fn sun_texel() -> Case {
     let balls = ball("gold", [-0.7, 0.0, 0.6], 0.6) + &ball("bk7", [0.7, 0.0, 0.7], 0.6);
     let case = on_floor("sun texel over gold and glass", 3.0, &balls, [3.0, 12.0, 0.5]);
-    let constant = "[environment.constant]\nspectrum = \"D65\"\nluminance = 1";
-    let sky = "[environment.image]\nfile = \"sky.exr\"\nilluminant = \"D65\"\nscale = 1";
+    let constant = "environment.constant = { spectrum = \"D65\", luminance = 1 }";
+    let sky = "environment.image = { file = \"sky.exr\", illuminant = \"D65\", scale = 1 }";
     assert!(case.text.contains(constant));
     Case { text: case.text.replace(constant, sky), ..case }
 }
@@ -237,25 +216,7 @@ pub fn sky() -> (usize, Vec<[f32; 3]>) {
 
 /// Two lines of a lamp, parted by flint, on a screen.
 fn lines_through_a_prism() -> Case {
-    let text = r#"
-meters_per_unit = 0.01
-[render]
-width = 16
-height = 16
-[picture]
-exposure = 2
-[camera]
-position = [0, -8, 3]
-look_at = [0, 0, 0.6]
-fov = 30
-[environment.constant]
-spectrum = "D65"
-luminance = 1
-[materials.screen.diffuse]
-reflectance = 0.8
-[[objects]]
-material = "screen"
-shape.rectangle = { size = [40, 40] }
+    let prism = r#"
 [[objects]]
 material = "SF11"
 shape.convex = { planes = [[0.866, 0, 0.5, 0.5], [-0.866, 0, 0.5, 0.5], [0, 0, -1, 0.4], [0, 1, 0, 1], [0, -1, 0, 1]] }
@@ -264,7 +225,9 @@ transform = { translate = [0, 0, 0.9] }
 shape.rectangle = { center = [-3, 0, 2], size = [0.05, 1.5], normal = [0.9, 0, -0.3] }
 emission = { spectrum = { lines = [[532, 1], [633, 1]] }, luminance = 4000 }
 "#;
-    Case { name: "laser lines through a prism", text: text.to_owned(), targets: [3.0, 12.0, 0.2] }
+    let camera = "position = [0, -8, 3], look_at = [0, 0, 0.6], fov = 30";
+    let text = framed(2.0, camera, 1.0) + &matt("screen", "0.8") + &floor("screen") + prism;
+    Case { name: "laser lines through a prism", text, targets: [3.0, 12.0, 0.2] }
 }
 
 /// A picture on the floor.

@@ -109,6 +109,9 @@ pub struct Compared {
     pub luminance: Vec<f32>,
 }
 
+/// ΔE2000, a tenth of what an eye can just tell.
+const INVISIBLE: f64 = 0.1;
+
 /// Pixels that are summed up at a time, whatever the number of threads.
 const CHUNK: usize = 1024;
 
@@ -138,9 +141,9 @@ pub fn compare(view: &View, reference: &[Image], picture: &[Image], unseen: &Uns
 }
 
 impl Difference {
-    /// Whether what no path may have found is more than a tenth of what was measured.
+    /// Whether what no path may have found is more than a tenth of what was measured, and more than nobody sees.
     pub fn may_miss_much(&self) -> bool {
-        self.missed.delta_e2000 > 0.1 * self.delta_e2000.mean
+        self.missed.delta_e2000 > INVISIBLE.max(0.1 * self.delta_e2000.mean)
     }
 
     /// With intervals that hold the truth whatever no path has found; `colors` are the reference's, relative to display white.

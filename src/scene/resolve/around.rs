@@ -34,7 +34,7 @@ impl Resolver<'_> {
         }
         if !dark.is_empty() {
             let names = listed(&dark);
-            self.warnings.push(format!("a part of the camera's rays begins inside `{names}`: it is black there"));
+            self.warnings.push(format!("a part of the camera's rays begins inside {names}: it is black there"));
         }
         Ok(around)
     }
