@@ -34,6 +34,13 @@ pub fn choose<const N: usize>(weights: &Lanes<N>, r: &Lanes<N>, u: f32) -> Choic
     Choice { reflect, probability, weight: lanes * (total / part) }
 }
 
+/// Take the throughput from lanes of which nothing goes on: an absorbing medium keeps a part of what total reflection would
+/// return. Returns whether anything is left.
+pub fn keep_refracted<const N: usize>(throughput: &mut Lanes<N>, cos_theta_t: &Lanes<N>) -> bool {
+    *throughput = throughput.zip(*cos_theta_t, |weight, cos| if cos > 0.0 { weight } else { 0.0 });
+    throughput.sum() > 0.0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

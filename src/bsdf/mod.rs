@@ -15,7 +15,7 @@ mod ggx;
 pub mod rough_dielectric;
 mod turn;
 
-pub use branch::{Choice, choose};
+pub use branch::{Choice, choose, keep_refracted};
 pub use directions::Directions;
 pub use frame::Frame;
 pub use rough_dielectric::RoughDielectric;

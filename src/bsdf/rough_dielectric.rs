@@ -58,6 +58,10 @@ impl<const N: usize> RoughDielectric<N> {
         let (n1, n2) = (self.n1[lane], self.n2[lane]);
         let facet = self.fresnel.lane(lane).at(&Lanes([n1]), &Lanes([n2]), &Lanes([projected.clamp(0.0, 1.0)]));
         let reflects = choice < facet.r[0];
+        // What an absorbing medium keeps of total reflection.
+        if !reflects && facet.cos_theta_t[0] == 0.0 {
+            return None;
+        }
         let wi = match reflects {
             true => normal * (2.0 * projected) - wo,
             false => refract(-wo, normal, n1 / n2, projected, facet.cos_theta_t[0]).normalize(),

@@ -1,6 +1,6 @@
 //! Reflectance of an interface: numbers in, numbers out; no scene.
 //!
-//! `exact` is the f64 reference. `conductor` and `dielectric` are the exact equations in f32 over the lanes of a path, and each
+//! `exact` is the f64 reference. `conductor`, `dielectric` and `absorbing` (media with k on both sides) are the exact equations in f32 over the lanes of a path, and each
 //! approximation has a file of its own. To add a model, write its file with `impl Model` or `impl Rgb` and add one line to
 //! `models!` below.
 //!
@@ -28,6 +28,7 @@
 //! # }
 //! ```
 
+pub mod absorbing;
 mod average;
 pub mod conductor;
 pub mod constant;

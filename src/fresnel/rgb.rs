@@ -13,6 +13,7 @@
 //! - Cost (`benches/fresnel.rs`, SSE2, Sapphire Rapids, eight lanes): `schlick-rgb` takes 11 ns at a hit, of which its three
 //!   channels are 2; the rest is spreading them.
 
+use super::absorbing::Absorbing;
 use super::{Dielectric, RgbCurve, SpectralCurve, SpectralModel, dielectric};
 use crate::spectrum::Lanes;
 
@@ -58,7 +59,7 @@ impl<const N: usize> RgbFresnel<N> {
         (r * rgb[0] + g * rgb[1] + b * rgb[2]).map(|value| value.max(0.0))
     }
 
-    fn lane(&self, lane: usize) -> RgbFresnel<1> {
+    pub(super) fn lane(&self, lane: usize) -> RgbFresnel<1> {
         RgbFresnel { curve: self.curve, primaries: self.primaries.map(|primary| Lanes([primary[lane]])) }
     }
 
@@ -75,11 +76,13 @@ impl<const N: usize> RgbFresnel<N> {
     }
 }
 
-/// A model at the lossless interface of two media.
+/// A model at the interface of two media.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DielectricFresnel<const N: usize> {
     Spectral(SpectralModel),
     Rgb(RgbFresnel<N>),
+    /// One of the media absorbs so much that it shows in what is reflected.
+    Absorbing(Absorbing<N>),
 }
 
 impl<const N: usize> From<SpectralModel> for DielectricFresnel<N> {
@@ -95,6 +98,7 @@ impl<const N: usize> DielectricFresnel<N> {
         match self {
             Self::Spectral(model) => model.dielectric(n1, n2, cos_theta_i),
             Self::Rgb(rgb) => rgb.dielectric(n1, n2, cos_theta_i),
+            Self::Absorbing(absorbing) => absorbing.at(n1, n2, cos_theta_i),
         }
     }
 
@@ -104,6 +108,7 @@ impl<const N: usize> DielectricFresnel<N> {
         match self {
             Self::Spectral(model) => DielectricFresnel::Spectral(*model),
             Self::Rgb(rgb) => DielectricFresnel::Rgb(rgb.lane(lane)),
+            Self::Absorbing(absorbing) => DielectricFresnel::Absorbing(absorbing.lane(lane)),
         }
     }
 }

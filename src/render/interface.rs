@@ -6,7 +6,7 @@ use super::rough::Rough;
 use super::stone::{Entry, points};
 use super::{Tracer, rays};
 use crate::bsdf::dielectric::{reflect, refract, refract_lanes};
-use crate::bsdf::{Directions, choose};
+use crate::bsdf::{Directions, choose, keep_refracted};
 use crate::geometry::{Departure, Hit, Ray, Side};
 use crate::sampler::Sampler;
 use crate::scene::{Filling, Inside, Interface, Object, Physics, Surface};
@@ -155,6 +155,9 @@ impl<const P: u32> Tracer<'_, P> {
         if choice.reflect {
             path.ray = Ray::leaving(hit, hit.side, reflect(path.ray.direction, normal, cos_theta_i));
             return Outcome::GoesOn;
+        }
+        if Self::runs(Physics::COMPLEX_INDEX) && !keep_refracted(&mut path.throughput, &boundary.cos_theta_t) {
+            return Outcome::Ended;
         }
         let outside = path.media.current();
         path.media = media;

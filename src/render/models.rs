@@ -4,11 +4,10 @@
 //! milliseconds, and most pairs of media never touch.
 
 use super::Tracer;
-use crate::fresnel::{
-    DielectricFresnel, Fresnel, FresnelModel, RgbCurve, RgbFresnel, RgbModel, Specimen, SpectralModel, Target,
-};
+use crate::fresnel::absorbing::{Absorbing, By};
+use crate::fresnel::{DielectricFresnel, Fresnel, FresnelModel, RgbCurve, RgbFresnel, RgbModel, SpectralModel, Target};
 use crate::scene::{MediumId, Physics, RgbColors, Scene};
-use crate::spectrum::SpectrumId;
+use crate::spectrum::{Lanes, SpectrumId};
 use std::collections::HashMap;
 use std::sync::{OnceLock, PoisonError, RwLock};
 
@@ -38,8 +37,7 @@ impl<'a> RgbCurves<'a> {
         let key = (model, from.min(to), from.max(to));
         let known = self.boundaries.read().unwrap_or_else(PoisonError::into_inner).get(&key).copied();
         known.unwrap_or_else(|| {
-            let [a, b] = [from, to].map(|medium| self.scene.spectra.get(self.scene.medium(medium).n));
-            let curve = model.fit(&Target::new(Specimen::between(a, b), &self.colors.meter));
+            let curve = model.fit(&Target::new(self.scene.boundary(from, to), &self.colors.meter));
             self.boundaries.write().unwrap_or_else(PoisonError::into_inner).insert(key, curve);
             curve
         })
@@ -78,6 +76,11 @@ impl<const P: u32> Tracer<'_, P> {
         to: MediumId,
         offset: u32,
     ) -> DielectricFresnel<N> {
+        if Self::runs(Physics::COMPLEX_INDEX)
+            && let Some(absorbing) = self.absorbing(model, from, to, offset)
+        {
+            return DielectricFresnel::Absorbing(absorbing);
+        }
         match (model, &self.rgb) {
             _ if !Self::runs(Physics::APPROXIMATIONS) => DielectricFresnel::Spectral(SpectralModel::Exact),
             (FresnelModel::Rgb(model), Some(curves)) => {
@@ -86,6 +89,30 @@ impl<const P: u32> Tracer<'_, P> {
             (FresnelModel::Spectral(model), _) => DielectricFresnel::Spectral(model),
             (FresnelModel::Rgb(_), None) => DielectricFresnel::Spectral(NEVER),
         }
+    }
+
+    /// None where both media are as good as clear.
+    #[inline(never)]
+    fn absorbing<const N: usize>(
+        &self,
+        model: FresnelModel,
+        from: MediumId,
+        to: MediumId,
+        offset: u32,
+    ) -> Option<Absorbing<N>> {
+        let ids = [from, to].map(|medium| self.scene.medium(medium).k);
+        let [k1, k2] = ids.map(|k| k.map_or(Lanes::ZERO, |k| self.tables.get(k, offset)));
+        let by = match (ids, model, &self.rgb) {
+            ([None, None], ..) => return None,
+            ([Some(_), _], ..) => By::Exact,
+            ([None, _], FresnelModel::Rgb(model), Some(curves)) => {
+                By::Rgb(self.on_lanes(curves.boundary(model, from, to), curves, offset))
+            }
+            ([None, _], FresnelModel::Spectral(model), _) if !model.dielectrics_only() => By::Spectral(model),
+            _ => By::Exact,
+        };
+        let by = if by == By::Spectral(SpectralModel::Exact) { By::Exact } else { by };
+        Some(Absorbing { k1, k2, by })
     }
 
     #[inline(never)]

@@ -8,7 +8,7 @@
 use super::Tracer;
 use super::path::Path;
 use crate::bsdf::dielectric::{reflect_lanes, refract_lanes};
-use crate::bsdf::{Directions, choose};
+use crate::bsdf::{Directions, choose, keep_refracted};
 use crate::geometry::{Hit, Points, Shape};
 use crate::sampler::Sampler;
 use crate::scene::{Interface, MediumId, Physics};
@@ -55,6 +55,9 @@ impl<const P: u32> Tracer<'_, P> {
             path.throughput *= choice.weight;
             path.depth += 1;
             if !choice.reflect {
+                if Self::runs(Physics::COMPLEX_INDEX) && !keep_refracted(&mut path.throughput, &boundary.cos_theta_t) {
+                    return None;
+                }
                 let eta = inside / outside;
                 let directions = refract_lanes(&directions, &normals, &eta, &cos_theta_i, &boundary.cos_theta_t);
                 return Some(Exits { origins, directions });

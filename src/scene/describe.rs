@@ -310,6 +310,7 @@ pub struct Conductor {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Dielectric {
+    /// Where its k exceeds 0.001 it shows in what is reflected, too.
     pub ior: Spanned<IndexSource>,
     /// From the k of `ior` unless given.
     pub absorption: Option<Spanned<AbsorptionSource>>,

@@ -185,6 +185,8 @@ pub struct Medium {
     pub n: SpectrumId,
     /// Per scene unit, natural base.
     pub absorption: Option<SpectrumId>,
+    /// Imaginary part of the index, where it is large enough to change what is reflected.
+    pub k: Option<SpectrumId>,
     /// Whether n changes with wavelength.
     pub dispersive: bool,
 }
@@ -257,5 +259,16 @@ impl Scene {
     pub fn metal(&self, index: [SpectrumId; 2], from: MediumId) -> Specimen<'_> {
         let [n2, k2] = index.map(|id| self.spectra.get(id));
         Specimen { n1: self.spectra.get(self.medium(from).n), n2, k2 }
+    }
+
+    /// The boundary of two media as a model is fitted to it: seen from the one that does not absorb, else from the rarer one.
+    pub fn boundary(&self, a: MediumId, b: MediumId) -> Specimen<'_> {
+        let of = |id| self.spectra.get(id);
+        let index = |medium: MediumId| of(self.medium(medium).n);
+        match [a, b].map(|medium| self.medium(medium).k) {
+            [None, Some(k)] => Specimen { n1: index(a), n2: index(b), k2: of(k) },
+            [Some(k), None] => Specimen { n1: index(b), n2: index(a), k2: of(k) },
+            _ => Specimen::between(index(a), index(b)),
+        }
     }
 }

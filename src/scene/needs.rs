@@ -4,6 +4,7 @@ use super::chance::{self, Chance};
 use super::{Inside, Interface, MediumId, Object, Pattern, Physics, Scene, Surface, lighting};
 use crate::bsdf::conductor::MIRROR_ALPHA;
 use crate::fresnel::FresnelModel;
+use crate::fresnel::absorbing::LEAST_K;
 use crate::geometry::ShapeId;
 use crate::light::{Environment, FEW};
 use crate::spectrum::Density;
@@ -40,6 +41,7 @@ impl Needs {
             dispersion(scene),
             stones(scene),
             absorption(scene),
+            complex_index(scene),
             immersion(scene),
             contact(scene),
             microfacets(scene),
@@ -70,6 +72,7 @@ fn physics(scene: &Scene) -> Physics {
         (Physics::APPROXIMATIONS, approximations(scene).used),
         (Physics::CLEAR_MEDIA, any(&|surface| matches!(surface, Surface::Dielectric(_)))),
         (Physics::ABSORPTION, absorption(scene).used),
+        (Physics::COMPLEX_INDEX, complex_index(scene).used),
         (Physics::DISPERSION, dispersion(scene).used),
         (Physics::CONTACT, contact(scene).used),
         (Physics::ROUGH_GLASS, any(&glass)),
@@ -148,6 +151,15 @@ fn absorption(scene: &Scene) -> Decision {
     match names.is_empty() {
         true => decision("absorption", false, "every medium is clear"),
         false => decision("absorption", true, format!("along the path (Beer–Lambert) in {}", listed(&names))),
+    }
+}
+
+fn complex_index(scene: &Scene) -> Decision {
+    let names: Vec<&str> =
+        scene.media.iter().filter(|medium| medium.k.is_some()).map(|medium| medium.name.as_str()).collect();
+    match names.is_empty() {
+        true => decision("k in reflection", false, format!("no medium has k > {LEAST_K}: R moves by less than 1e-6")),
+        false => decision("k in reflection", true, format!("Fresnel's equations with n + ik in {}", listed(&names))),
     }
 }
 

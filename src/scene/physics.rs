@@ -27,7 +27,9 @@ impl Physics {
     pub const CONTACT: Self = Self(1 << 7);
     /// Boundaries of clear media that are not smooth.
     pub const ROUGH_GLASS: Self = Self(1 << 8);
-    pub const ALL: Self = Self((1 << 9) - 1);
+    /// Media that absorb so much that it shows in what they reflect.
+    pub const COMPLEX_INDEX: Self = Self(1 << 9);
+    pub const ALL: Self = Self((1 << 10) - 1);
 
     pub const fn and(self, other: Self) -> Self {
         Self(self.0 | other.0)

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Bands, Daylight, Formula, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Line, Outside, Sigmoid, Table, planck};
+use super::{Bands, Daylight, Formula, Line, Outside, Sigmoid, Table, planck, visible_nm};
 
 /// A function of vacuum wavelength. Its unit is what its use says: an index, a reflectance, m⁻¹, W m⁻² sr⁻¹ nm⁻¹, or
 /// relative power.
@@ -75,9 +75,16 @@ impl Spectrum {
     /// The absorption coefficient of an extinction coefficient: α = 4πk/λ, m⁻¹ and natural base; at every nanometre of the
     /// visible and at every breakpoint, linear between.
     pub fn absorption_from_k(&self) -> Self {
-        let visible = (LAMBDA_MIN_NM as u32..=LAMBDA_MAX_NM as u32).map(f64::from);
-        let alpha = |nm: f64| (nm, 4.0 * std::f64::consts::PI * self.at(nm) / (nm * 1e-9));
-        let points: Vec<_> = visible.chain(self.breakpoints_nm()).map(alpha).collect();
+        self.tabulated(|nm, k| 4.0 * std::f64::consts::PI * k / (nm * 1e-9))
+    }
+
+    /// The extinction coefficient of an absorption coefficient in m⁻¹: k = αλ/4π.
+    pub fn k_from_absorption(&self) -> Self {
+        self.tabulated(|nm, alpha| alpha * (nm * 1e-9) / (4.0 * std::f64::consts::PI))
+    }
+
+    fn tabulated(&self, of: impl Fn(f64, f64) -> f64) -> Self {
+        let points: Vec<_> = visible_nm().chain(self.breakpoints_nm()).map(|nm| (nm, of(nm, self.at(nm)))).collect();
         Self::Table(Table::from_points(&points, Outside::Hold))
     }
 

@@ -70,6 +70,11 @@ pub use upsample_table::UpsampleTable;
 pub const LAMBDA_MIN_NM: f64 = 360.0;
 pub const LAMBDA_MAX_NM: f64 = 830.0;
 
+/// Every nanometre at which light is computed.
+pub fn visible_nm() -> impl Iterator<Item = f64> {
+    (LAMBDA_MIN_NM as u32..=LAMBDA_MAX_NM as u32).map(f64::from)
+}
+
 /// The yellow helium line d, nm, at which catalogues print n_d (ISO 7944).
 pub const HELIUM_D_NM: f64 = 587.56;
 

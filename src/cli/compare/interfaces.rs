@@ -37,9 +37,13 @@ impl Interface {
                 Some(Self::new(scene, fitted(scene, model, specimen)?, specimen, true))
             }
             Surface::Dielectric(interface) => {
+                let boundary = scene.boundary(MediumId::OUTSIDE, interface.medium);
+                let model = fitted(scene, interface.model, boundary)?;
+                if scene.medium(interface.medium).k.is_some() {
+                    return Some(Self::new(scene, model, boundary, true));
+                }
                 let [outside, inside] =
                     [MediumId::OUTSIDE, interface.medium].map(|id| scene.spectra.get(scene.medium(id).n));
-                let model = fitted(scene, interface.model, Specimen::between(outside, inside))?;
                 Some(Self::new(scene, model, Specimen::clear(outside, inside), false))
             }
             Surface::Black | Surface::Diffuse { .. } => None,

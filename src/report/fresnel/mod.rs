@@ -9,8 +9,9 @@ pub mod curve_plot;
 pub mod errors;
 pub mod text;
 
+use crate::fresnel::absorbing::LEAST_K;
 use crate::fresnel::{Fitted, FresnelModel, Ready, Specimen, Target};
-use crate::spectrum::{Colorimeter, Ior, LANES, Lanes, Spectrum};
+use crate::spectrum::{Colorimeter, Ior, LANES, Lanes, Spectrum, visible_nm};
 
 /// An interface that is asked about.
 #[derive(Clone, Debug)]
@@ -28,9 +29,11 @@ pub struct Subject<'a> {
 const WAVELENGTHS: [f64; LANES] = [415.0, 455.0, 495.0, 535.0, 575.0, 615.0, 655.0, 695.0];
 
 impl<'a> Subject<'a> {
-    /// A material seen from vacuum. Of a clear one the k is not looked at, as rendering does not: it colours what passes, not what is reflected.
+    /// A material seen from vacuum. The k of a clear one is not looked at, as rendering does not, unless it is large enough to show in what is
+    /// reflected: then it is seen as a metal is.
     pub fn new(name: String, ior: &'a Ior, clear: bool) -> Self {
         let seen = Specimen::in_vacuum(ior);
+        let clear = clear && visible_nm().all(|nm| ior.k.at(nm) <= LEAST_K);
         let specimen = if clear { Specimen::clear(seen.n1, seen.n2) } else { seen };
         Self { name, data: ior.about.name.clone(), specimen, clear }
     }

@@ -1,10 +1,12 @@
 //! Materials: names become data sets, data sets become spectra of the scene.
 
-use super::{Resolver, visible_nm};
+use super::Resolver;
 use crate::fresnel::FresnelModel;
+use crate::fresnel::absorbing::LEAST_K;
 use crate::scene::describe::{self, AbsorptionSource, IndexSource, ReflectanceSource, RoughnessSource};
 use crate::scene::numbers::short;
 use crate::scene::{Interface, Medium, MediumId, Pattern, RgbColors, SceneError, Surface, Text};
+use crate::spectrum::visible_nm;
 use crate::spectrum::{
     Adaptation, Colorimeter, HELIUM_D_NM, Ior, RgbSpace, Spectrum, SpectrumError, Upsampler, nearest, srgb_primaries,
 };
@@ -29,6 +31,9 @@ struct Described {
 /// Indices that single precision computes with; in the visible, metals and stones are within 0.01 … 20.
 const N_RANGE: RangeInclusive<f64> = 1e-6..=1e6;
 const K_RANGE: RangeInclusive<f64> = 0.0..=1e6;
+
+/// A medium of this k is opaque like a metal: at 0.1 light is down to a tenth after a micrometre.
+const OPAQUE_K: f64 = 0.1;
 
 impl Resolver<'_> {
     /// The surface of a material by its name in this scene or in the library.
@@ -220,6 +225,21 @@ impl Resolver<'_> {
             Some(absorption) => self.absorption(described, absorption)?,
             None => visible_nm().any(|nm| ior.k.at(nm) > 0.0).then(|| ior.k.absorption_from_k()),
         };
+        let k = match &absorption {
+            Some(per_metre) if dielectric.get_ref().absorption.is_some() => per_metre.k_from_absorption(),
+            Some(_) => ior.k.clone(),
+            None => Spectrum::Constant(0.0),
+        };
+        let largest_k = visible_nm().map(|nm| k.at(nm)).fold(0.0, f64::max);
+        if largest_k > OPAQUE_K {
+            self.warnings.push(format!(
+                "`{}` is a dielectric of k up to {}: it is as good as opaque, and `conductor` says the same of what it \
+                 reflects, at less cost",
+                described.name,
+                short(largest_k)
+            ));
+        }
+        let k = (largest_k > LEAST_K).then(|| self.spectra.add(k));
         let absorption = match absorption {
             None => None,
             Some(per_metre) => {
@@ -235,7 +255,7 @@ impl Resolver<'_> {
         };
         let n = if self.without_dispersion { Spectrum::Constant(ior.n.at(HELIUM_D_NM)) } else { ior.n.clone() };
         let dispersive = !is_constant(&n);
-        Ok(Medium { name: described.name.clone(), n: self.spectra.add(n), absorption, dispersive })
+        Ok(Medium { name: described.name.clone(), n: self.spectra.add(n), absorption, k, dispersive })
     }
 
     fn needs_scale(&self, described: &Described) -> SceneError {

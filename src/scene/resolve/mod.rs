@@ -27,7 +27,7 @@ use super::{DataSet, Medium, Pattern, Scene, SceneError, Surface, Text};
 use crate::fresnel::FresnelModel;
 use crate::geometry::{Bounds, World};
 use crate::light::{Environment, Lights};
-use crate::spectrum::{Arena, ColorMatching, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Library, Observer, Spectrum, SpectrumId};
+use crate::spectrum::{Arena, ColorMatching, Library, Observer, Spectrum, SpectrumId};
 use glam::{DVec3, Vec3};
 use meshes::Meshes;
 use objects::Objects;
@@ -116,7 +116,7 @@ impl Resolver<'_> {
         self.meters_per_unit =
             file.meters_per_unit.as_ref().map(|m| self.positive(m, "`meters_per_unit`")).transpose()?;
         let vacuum = self.spectra.add(Spectrum::Constant(1.0));
-        self.media.push(Medium { name: "vacuum".into(), n: vacuum, absorption: None, dispersive: false });
+        self.media.push(Medium { name: "vacuum".into(), n: vacuum, absorption: None, k: None, dispersive: false });
         file.outside.as_ref().map(|name| self.outside(name)).transpose()?;
         let Objects { mut objects, shapes, mut emitters } = self.objects(&file.objects, &file.replace)?;
         self.check_substitutes()?;
@@ -202,11 +202,6 @@ pub(super) fn surface(bounds: &Bounds) -> f64 {
 /// Half of the way from corner to corner: the radius of the ball around all shapes.
 fn half_diagonal(bounds: &Bounds) -> f64 {
     f64::from(bounds.size().length()) / 2.0
-}
-
-/// Every nanometre at which light is computed.
-fn visible_nm() -> impl Iterator<Item = f64> {
-    (LAMBDA_MIN_NM as u32..=LAMBDA_MAX_NM as u32).map(f64::from)
 }
 
 fn vector(values: [f64; 3]) -> Vec3 {

@@ -1,7 +1,8 @@
 //! Where the data of a scene come from, and what a person should be warned of.
 
-use super::{Resolver, visible_nm};
+use super::Resolver;
 use crate::scene::{DataSet, Surface};
+use crate::spectrum::visible_nm;
 use crate::spectrum::{About, ColorMatching, luminance};
 
 /// A data set whose range leaves out more than this share of what the observer sees is warned of.
