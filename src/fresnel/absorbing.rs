@@ -1,7 +1,7 @@
 //! Exact Fresnel reflectance of the boundary of two media that may both absorb, in f32, unpolarised.
 //!
 //! ```text
-//! N = n + i k    C = N1 c    S = N1²s²    d = N2² − N1²    w = N2 cos θ_t = √(d + C²), Re w ≥ 0
+//! N = n + i k    C = N1 c    S = N1²s²    d = N2² − N1²    w = N2 cos θ_t = √(d + C²)
 //! r_s = −d/(C + w)²    r_p = −r_s (C w − S)/(C w + S)    R = |r_s|² (1 + |C w − S|²/|C w + S|²)/2
 //! ```
 //!
@@ -9,8 +9,9 @@
 //!   along its own direction. What is not reflected goes on by the real indices, and is lost where these reflect totally: there the
 //!   field beyond is one that decays along the boundary.
 //! - Needed where k > [`LEAST_K`]: below, R moves by less than 1e-6 away from critical angles, and `dielectric` is enough.
+//! - Of the two roots w the larger part is positive: a wave that goes on goes away from the boundary, one that does not go on decays. At
+//!   the critical angle of an absorbing medium neither is right, for plane waves do not describe it; R is kept to at most 1 there.
 //! - Limits: inside of a medium with k of about n, waves are not like that; but such a medium lets nothing through that could come back.
-//!   Within the critical angle of a weakly absorbing medium R is kept to at most 1.
 //! - Error against f64 by the textbook's form, and against `exact` where the first medium is clear: 2e-6 (tests below).
 //! - Approximations act on light from the clear side, as on metals; from the absorbing side, of which they know nothing, this is used.
 
@@ -88,12 +89,12 @@ impl Complex {
         self.re * self.re + self.im * self.im
     }
 
-    /// The root with a real part ≥ 0: the larger part from the modulus, the other from the product of both.
+    /// The root whose larger part is positive: that from the modulus, the other from the product of both.
     fn root(self) -> Self {
         let larger = (0.5 * (self.norm_squared().sqrt() + self.re.abs())).sqrt();
-        let smaller = 0.5 * self.im.abs() / (larger + f32::MIN_POSITIVE);
+        let smaller = 0.5 * self.im / (larger + f32::MIN_POSITIVE);
         let [re, im] = if self.re >= 0.0 { [larger, smaller] } else { [smaller, larger] };
-        Self { re, im: im.copysign(self.im) }
+        Self { re, im }
     }
 }
 
@@ -136,6 +137,10 @@ mod tests {
         let (first, second) = ((n1, k1), (n2, k2));
         let sin = div(mul(first, ((1.0 - cos * cos).sqrt(), 0.0)), second);
         let cos_t = root(sub((1.0, 0.0), mul(sin, sin)));
+        let beyond = mul(second, cos_t);
+        // Away from the boundary, or decaying.
+        let against = if beyond.0.abs() > beyond.1.abs() { beyond.0 < 0.0 } else { beyond.1 < 0.0 };
+        let cos_t = if against { (-cos_t.0, -cos_t.1) } else { cos_t };
         let part = |a: C, b: C| norm(div(sub(a, b), add(a, b)));
         let c = (cos, 0.0);
         0.5 * (part(mul(first, c), mul(second, cos_t)) + part(mul(second, c), mul(first, cos_t)))
@@ -181,7 +186,7 @@ mod tests {
         }
     }
 
-    /// What [`LEAST_K`] says: from outside, and from inside up to the last degree before the critical angle.
+    /// What [`LEAST_K`] says: from outside, and from inside up to five degrees before the critical angle.
     #[test]
     fn less_absorption_does_nothing_to_reflection() {
         let k = LEAST_K as f32;
@@ -192,7 +197,7 @@ mod tests {
                     .abs()
             };
             assert!(moved([1.0, 0.0], [1.5, k]) < 1e-6, "{cos}");
-            assert!(cos < 0.76 || moved([1.5, k], [1.0, 0.0]) < 2e-5, "{cos} {}", moved([1.5, k], [1.0, 0.0]));
+            assert!(cos < 0.8 || moved([1.5, k], [1.0, 0.0]) < 1e-6, "{cos}");
         }
     }
 
