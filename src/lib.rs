@@ -30,6 +30,7 @@
 pub mod bsdf;
 pub mod camera;
 pub mod cli;
+pub mod files;
 pub mod film;
 pub mod fresnel;
 pub mod geometry;

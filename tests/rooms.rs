@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 
 /// Every room and the rooms it may use besides itself.
 const ALLOWED: &[(&str, &[&str])] = &[
-    ("spectrum", &[]),
+    ("files", &[]),
+    ("spectrum", &["files"]),
     ("fresnel", &["spectrum"]),
     ("bsdf", &["spectrum", "fresnel"]),
-    ("geometry", &[]),
+    ("geometry", &["files"]),
     ("sampler", &[]),
     ("memory", &[]),
     ("texture", &["spectrum", "memory"]),
