@@ -90,10 +90,24 @@ fn an_unknown_material_is_told_and_the_rest_goes_on() {
 }
 
 #[test]
+fn an_encoding_that_is_not_stated_is_assumed_and_told() {
+    let table = "name,r,g,b\ngold,1,0.7738,0.3347\n";
+    let row = json(table, &["--check", "table.csv"])["rows"][0].clone();
+    assert_eq!(
+        (&row["outcome"], &row["encoding"], &row["encoding_assumed"]),
+        (&"match".into(), &"linear".into(), &true.into())
+    );
+    let folder = folder(&[("table.csv", table)]);
+    let output = run(folder.path(), &["f0", "--check", "table.csv"]);
+    let says = String::from_utf8(output.stdout).expect("text");
+    assert!(says.contains("No encoding is stated: the numbers are taken for linear"), "{says}");
+}
+
+#[test]
 fn tables_that_are_none_are_refused() {
     let refusal = |table: &str| refused(folder(&[("t.csv", table)]).path(), &["f0", "--check", "t.csv"]);
     let columns = refusal("material,r,g\ngold,1,1\n");
-    assert!(columns.contains("t.csv: the table has no column `b`, `encoding`"), "{columns}");
+    assert!(columns.contains("t.csv: the table has no column `b`"), "{columns}");
     assert!(refusal("material,r,g,b,encoding\n# x\ngold,1,one,1,linear\n").contains("t.csv:3: `g` is \"one\""));
     assert!(refusal("material,r,g,b,encoding\ngold,255,200,90,sRGB\n").contains("divided by 255"));
     assert!(refused(folder(&[]).path(), &["f0", "--check", "none.csv"]).contains("cannot read none.csv"));

@@ -198,3 +198,57 @@ fn names_and_options_that_are_none_are_refused_with_what_is_near() {
     assert!(refusal(&["--match", "#ffd891", "--all"]).contains("cannot be used with"));
     assert!(refusal(&["colorchecker-red"]).contains("no index of refraction"));
 }
+
+#[test]
+fn the_choice_of_a_data_set_has_its_reason() {
+    let why = "thick evaporated film, 10 nm steps with error bars";
+    let sets = json(&["gold", "--all-data-sets"]);
+    for row in sets["materials"].as_array().expect("rows") {
+        let reason = row["source"]["why"].as_str();
+        assert_eq!(
+            reason.is_some_and(|reason| reason.starts_with(why)),
+            row["ior"] == "Au/olmon-2012-evaporated",
+            "{row}"
+        );
+    }
+    assert!(said(&["gold"]).contains(&format!("gold: why Au/olmon-2012-evaporated: {why}")));
+    assert!(said(&["gold", "--format", "html"]).contains(&format!("Chosen because: {why}")));
+}
+
+#[test]
+fn materials_are_written_as_files_to_load() {
+    let engines = |name: &str| json(&[name])["materials"][0]["engines"].clone();
+    let (gold, water) = (engines("gold"), engines("water"));
+    let text = said(&["gold", "water", "--format", "gltf"]);
+    let asset: Value = serde_json::from_str(&text).expect("JSON");
+    let [metal, clear] = [&asset["materials"][0], &asset["materials"][1]];
+    assert_eq!(metal["pbrMetallicRoughness"]["baseColorFactor"], gold["gltf"]["baseColorFactor"]);
+    assert_eq!(metal["pbrMetallicRoughness"]["metallicFactor"], 1.0);
+    assert_eq!(clear["extensions"]["KHR_materials_ior"]["ior"], water["gltf"]["ior"]);
+    assert_eq!(asset["nodes"][1]["name"], "water");
+    // Whatever reads glTF finds two closed spheres: our own reader does.
+    let scene = "meters_per_unit = 1\n[camera]\nposition = [1, -9, 3]\nlook_at = [1, 0, 0]\nfov = 40\n\
+        [environment.constant]\nspectrum = \"D65\"\nluminance = 100\n\
+        [[objects]]\nmaterial = \"gold\"\nshape.mesh = { file = \"two.gltf\" }\n";
+    let folder = folder(&[("two.gltf", &text), ("scene.toml", scene)]);
+    let inspected = String::from_utf8(run(folder.path(), &["inspect", "scene.toml"]).stdout).expect("text");
+    assert!(inspected.contains("4416 triangles"), "{inspected}");
+
+    let document = said(&["gold", "water", "--format", "mtlx"]);
+    let xml = roxmltree::Document::parse(&document).expect("XML");
+    assert_eq!(xml.root_element().attribute("colorspace"), Some("lin_rec709"));
+    let input = |surface: &str, name: &str| {
+        let node = xml.descendants().find(|node| node.attribute("name") == Some(surface)).expect("a surface");
+        assert_eq!(node.tag_name().name(), "open_pbr_surface");
+        let input = node.children().find(|input| input.attribute("name") == Some(name)).expect("an input");
+        let value = input.attribute("value").expect("a value");
+        value.split(", ").map(|number| number.parse().expect("a number")).collect::<Vec<f64>>()
+    };
+    for name in ["base_color", "specular_color"] {
+        let expected: Vec<f64> = gold["openpbr"][name].as_array().expect("a colour").iter().map(number).collect();
+        assert_eq!(input("gold_surface", name), expected);
+    }
+    assert_eq!(input("water_surface", "specular_ior"), [number(&water["openpbr"]["specular_ior"])]);
+    let refusal = refused(folder.path(), &["f0", "--match", "#ffd891", "--format", "mtlx"]);
+    assert!(refusal.contains("only tables of materials"), "{refusal}");
+}

@@ -54,7 +54,7 @@ fn instrument([illuminant, observer, space, adapt]: &[String; 4], library: &Libr
 
 fn row(name: &str, instrument: &Instrument, library: &Library) -> Row {
     let found = optics(name, None, library).expect("a material");
-    let subject = Subject { name: found.name, conductor: found.class == Class::Conductor, ior: found.ior };
+    let subject = Subject { name: found.name, conductor: found.class == Class::Conductor, ior: found.ior, why: None };
     Row::new(&subject, instrument)
 }
 
@@ -149,7 +149,7 @@ fn the_average_over_angles_is_that_of_the_adaptive_rule() {
             average(|cos| exact::reflect(1.0, n, k, cos).r)
         };
         let expected = instrument.rgb(instrument.wavelengths_nm().map(adaptive));
-        let row = Row::new(&Subject { name: set.clone(), conductor: true, ior: ior.clone() }, &instrument);
+        let row = Row::new(&Subject { name: set.clone(), conductor: true, ior: ior.clone(), why: None }, &instrument);
         let air = usize::from(set.starts_with("air/"));
         worst[air] = worst[air].max(largest_error(&row.f_avg.linear, &expected));
     }

@@ -99,6 +99,30 @@ fn whites_of_the_standard_illuminants() {
     assert!((luminance(&line, &observer) - 683.0).abs() < 0.1);
 }
 
+/// Tables end at 780 nm as published; light that shines goes on by the series.
+#[test]
+fn daylight_in_a_scene_reaches_830_nm() {
+    let library = library();
+    for (name, nominal) in [("D50", 5000.0), ("D55", 5500.0), ("d65", 6500.0), ("D75", 7500.0)] {
+        let table = library.illuminant(name, Path::new("")).unwrap();
+        let shining = library.light(name, Path::new("")).unwrap();
+        assert_eq!((table.about.range_nm, table.spectrum.at(785.0)), (Some((300.0, 780.0)), 0.0), "{name}");
+        assert_eq!(shining.about.range_nm, Some((300.0, 830.0)));
+        let series = Daylight::new(nominal * 1.4388 / 1.438).unwrap();
+        for nm in [300.0, 543.0, 780.0, 785.0, 790.0, 825.0, 830.0] {
+            let (own, theirs) = (shining.spectrum.at(nm), series.at(nm));
+            assert!((own / theirs - 1.0).abs() < 1e-4, "{name} at {nm} nm: {own} {theirs}");
+        }
+    }
+    let a = library.light("A", Path::new("")).unwrap();
+    assert_eq!(*a, *library.illuminant("A", Path::new("")).unwrap());
+    let scene = "[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nup = [0, 1, 0]\nfov = 10\n\
+        [environment.constant]\nspectrum = \"D65\"\nluminance = 100\n";
+    let text = spectrel::scene::Text::new("scene.toml", scene);
+    let scene = spectrel::scene::resolve(text, &library, &spectrel::scene::Overrides::default()).unwrap();
+    assert_eq!(scene.data[0].about.range_nm, Some((300.0, 830.0)));
+}
+
 #[test]
 fn daylight_follows_the_table_and_an_independent_evaluation() {
     let library = library();

@@ -51,7 +51,10 @@ fn toml_errors_name_place_and_expectation() {
         "own.toml:12:9: n is 0 at 500 nm, expected a number above 0",
     );
     begins("[table]\nwavelength_nm = [400, 500]\nn = [1, nan]", "own.toml:12:9: n is NaN at 500 nm");
-    begins("[table]\nwavelength_nm = [500, 400]\nn = [1, 1]", "own.toml:11:23: the wavelength 400 nm follows 500 nm");
+    begins(
+        "[table]\nwavelength_nm = [400, 600, 500, 700]\nn = [1, 1, 1, 1]",
+        "own.toml:11:28: the wavelength 500 nm follows 600 nm",
+    );
     begins("[table]\nwavelength_nm = [400, 500]\nn = [1]", "own.toml:11:18: 2 wavelengths but 1 values of n");
     begins("[table]\nwavelength_nm = []\nn = []", "own.toml:10:1: the table is empty");
     begins("[table]\nwavelength_nm = [400]", "own.toml:10:1: the table has no n");
@@ -85,10 +88,10 @@ fn other_quantities_have_their_bounds() {
     let library = Library::new(Vec::new());
     let base = folder.write(
         "r.toml",
-        &format!("quantity = \"reflectance\"\n{HEAD}[table]\nwavelength_nm = [400]\nvalue = [1.01]\n"),
+        &format!("quantity = \"reflectance\"\n{HEAD}[table]\nwavelength_nm = [400]\nvalue = [1.02]\n"),
     );
     let bad = message(&folder, library.reflectance("r.toml", base).map(drop));
-    assert!(bad.starts_with("r.toml:12:10: a reflectance is 1.01 at 400 nm, expected a number from 0 to 1"), "{bad}");
+    assert!(bad.starts_with("r.toml:12:10: a reflectance is 1.02 at 400 nm, expected a number from 0 to 1"), "{bad}");
 
     let absorption = |unit: &str| {
         format!("quantity = \"absorption\"\n{HEAD}[absorption]\n{unit}\n[table]\nwavelength_nm = [400]\nvalue = [2]\n")
@@ -105,6 +108,127 @@ fn other_quantities_have_their_bounds() {
     let alpha = library.absorption("k.yml", base).unwrap().spectrum.at(500.0);
     assert!((alpha - 4.0 * std::f64::consts::PI * 1e-6 / 500e-9).abs() < 1e-9);
     assert!(library.ior("k.yml", base).is_err() && library.reflectance("k.yml", base).is_err());
+}
+
+/// n and k at 600 nm of a file, its range, and its notes.
+fn gold(name: &str, bytes: &[u8]) -> (f64, f64, Option<(f64, f64)>, Vec<String>) {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join(name), bytes).unwrap();
+    let ior = Library::new(Vec::new()).ior(name, folder.path()).unwrap_or_else(|error| panic!("{error}"));
+    (ior.n.at(600.0), ior.k.at(600.0), ior.about.range_nm, ior.about.notes.clone())
+}
+
+#[test]
+fn files_of_other_tools_are_read_whatever_their_columns_and_encoding() {
+    let range = Some((400.0, 700.0));
+    let samples: [(&str, &[u8]); 3] = [
+        ("space_nk.csv", include_bytes!("data/space_nk.csv")),
+        ("unitsrow2_nk.csv", include_bytes!("data/unitsrow2_nk.csv")),
+        ("latin1_um_nk.csv", include_bytes!("data/latin1_um_nk.csv")),
+    ];
+    for (name, bytes) in samples {
+        assert_eq!(gold(name, bytes), (0.25, 3.0, range, Vec::new()), "{name}");
+    }
+    let text = "Wavelength (µm)\tn\tk\r700e-3\t0,16\t3,9\r0,6\t0,25\t3\r0,4\t1,5\t1,9\r";
+    let utf16: Vec<u8> =
+        "\u{FEFF}".chars().chain(text.chars()).collect::<String>().encode_utf16().flat_map(u16::to_le_bytes).collect();
+    for (name, bytes) in [
+        ("a.txt", text.as_bytes().to_vec()),
+        ("a.dat", format!("\u{FEFF}{text}").into_bytes()),
+        ("a.nk", utf16),
+        ("a.TSV", text.chars().map(|letter| u8::try_from(letter).unwrap()).collect()),
+    ] {
+        assert_eq!(gold(name, &bytes), (0.25, 3.0, range, Vec::new()), "{name}");
+    }
+    let (n, k, range, notes) = gold("a.spd", b"# from another renderer\n400 1.5\n600 0.25\n700 0.16\n");
+    assert_eq!((n, k, range), (0.25, 0.0, Some((400.0, 700.0))));
+    assert_eq!(
+        notes,
+        [
+            "no unit of wavelength is stated: by their numbers they are nm",
+            "the columns have no names: after the wavelength they are taken for `n`"
+        ]
+    );
+    let (_, _, _, notes) = gold("a.csv", b"wavelength_nm,n,k\n0.4,1.5,1.9\n0.7,0.25,3\n");
+    assert_eq!(notes, ["`wavelength_nm` runs from 0.4 to 0.7 nm, outside the visible: is it in µm?"]);
+}
+
+#[test]
+fn a_page_with_a_coefficient_missing_is_told() {
+    let all = "0 1.03961212 0.00600069867 0.231792344 0.0200179144 1.01046945 103.560653";
+    let page = |coefficients: &str| {
+        format!("DATA:\n  - type: formula 2\n    wavelength_range: 0.3 2.5\n    coefficients: {coefficients}\n")
+    };
+    let folder = Folder::new();
+    let base = folder.write("own.yml", &page(all));
+    assert!((Library::new(Vec::new()).ior("own.yml", base).unwrap().n.at(587.5618) - 1.5168).abs() < 1e-5);
+    let message = ior_error("own.yml", &page(all.rsplit_once(' ').unwrap().0));
+    assert_eq!(message, "own.yml:2:11: 6 coefficients of this formula, expected an odd number: a constant and pairs");
+}
+
+#[test]
+fn noise_is_set_right_and_told() {
+    let page = "DATA:\n  - type: tabulated nk\n    data: |\n        0.2 -6.2 4e-5\n        0.4 1.5 -3.7e-7\n        0.5 1.5 0.5\n        0.5 1.5 0.50390625\n        0.9 1.4 0\n        0.89 1.4 0\n        1.0 1.4 0\n";
+    let folder = Folder::new();
+    let library = Library::new(Vec::new());
+    let ior = library.ior("own.yml", folder.write("own.yml", page)).unwrap();
+    assert_eq!((ior.n.range_nm(), ior.at(400.0), ior.k.at(500.0)), (Some((400.0, 1000.0)), (1.5, 0.0), 0.501953125));
+    assert_eq!(
+        ior.about.notes,
+        [
+            "1 row outside 360–830 nm passed over: n is -6.2 at 200 nm",
+            "1 row outside 360–830 nm passed over: 890 nm follows 900 nm",
+            "k is -0.00000037 at 400 nm: noise, taken for 0",
+            "500 nm stands there 2 times: the values agree and are averaged",
+        ]
+    );
+    let base = folder.write("r.csv", "wavelength_nm,r\n400,1.01\n500,-0.001\n");
+    let white = library.reflectance("r.csv", base).unwrap();
+    assert_eq!((white.spectrum.at(400.0), white.spectrum.at(500.0), white.about.notes.len()), (1.0, 0.0, 1));
+    // Twins that disagree: of a page the first counts, as ever; of a table nobody knows which.
+    let twins = "DATA:\n  - type: tabulated n\n    data: |\n        0.5 1.5\n        0.5 2.5\n        0.6 1.5\n";
+    assert_eq!(library.ior("twins.yml", folder.write("twins.yml", twins)).unwrap().n.at(500.0), 1.5);
+    assert!(
+        ior_error("own.csv", "wavelength_nm,n\n500,1.5\n500,2.5\n").starts_with("own.csv:3:1: the wavelength 500 nm")
+    );
+}
+
+#[test]
+fn what_is_there_but_cannot_be_read_is_told_with_what_can() {
+    for (name, text, says) in [
+        ("Au.xlsx", "PK", "`Au.xlsx` is a file of a kind that is not read; read are two or three columns of text"),
+        ("Au.csv", "PK\0\0", "Au.csv: this is no text; read are two or three columns of text"),
+        ("Au.spdx", "<a/>", "Au.spdx: this is not an index of refraction"),
+    ] {
+        let message = ior_error(name, text);
+        assert!(message.starts_with(says), "{message}");
+    }
+    #[cfg(unix)]
+    {
+        let folder = Folder::new();
+        let pipe = folder.0.path().join("pipe.csv");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        let error = Library::new(Vec::new()).ior("pipe.csv", folder.0.path()).map(drop);
+        let says = "cannot read pipe.csv: it is a pipe or a device, expected a regular file";
+        assert_eq!(message(&folder, error), says);
+    }
+}
+
+#[test]
+fn glass_catalogues_and_lamps_are_read() {
+    let folder = Folder::new();
+    let library = Library::new(Vec::new());
+    let base = folder.write(
+        "own.AGF",
+        "NM N-BK7 2 517642.251 1.5168 64.17\nCD 1.03961212 0.00600069867 0.231792344 0.0200179144 1.01046945 103.560653\nLD 0.3 2.5\nIT 0.5 0.9 10\n",
+    );
+    let glass = library.ior("own.AGF#n-bk7", base).unwrap();
+    assert!((glass.n.at(587.5618) - 1.5168).abs() < 1e-5);
+    let alpha = library.absorption("own.AGF#N-BK7", base).unwrap().spectrum.at(500.0);
+    assert!((alpha / (-0.9_f64.ln() / 0.01) - 1.0).abs() < 1e-12, "{alpha}");
+    let lamp = "<IESTM2714><SpectralDistribution><SpectralData wavelength='400'>1</SpectralData><SpectralData wavelength='500'>2</SpectralData></SpectralDistribution></IESTM2714>";
+    let base = folder.write("lamp.spdx", lamp);
+    assert_eq!(library.illuminant("lamp.spdx", base).unwrap().spectrum.at(450.0), 1.5);
 }
 
 #[test]

@@ -109,7 +109,7 @@ fn material(library: &Library, name: &str) -> Result<Entry, SceneError> {
     let material: Material = text.parse()?;
     let index = |source: &IndexSource| match source {
         IndexSource::Name(name) => Some((Quantity::Ior, name.clone())),
-        IndexSource::Constant { .. } => None,
+        IndexSource::Constant { .. } | IndexSource::Own(_) => None,
     };
     let (kind, data) = match (&material.conductor, &material.dielectric, &material.diffuse) {
         (Some(conductor), ..) => ("conductor", index(conductor.get_ref().ior.get_ref())),

@@ -83,7 +83,7 @@ struct SceneArgs {
 
 #[derive(Clone, Debug, Args)]
 struct LibraryArgs {
-    /// Folder with your own `spectra/` and `materials/`, searched before the built-in ones; can be repeated
+    /// Folder with your own `spectra/ior/…` and `materials/`, searched before the built-in ones; can be repeated (docs/data-files.md)
     #[arg(long, value_name = "DIR")]
     library: Vec<PathBuf>,
 }

@@ -30,6 +30,11 @@ impl DataArgs {
             }
         }
         self.replace(&mut found, library)?;
+        for (optics, note) in
+            found.iter().flat_map(|optics| optics.ior.about.notes.iter().map(move |note| (optics, note)))
+        {
+            show::warning(format_args!("`{}`: {note}", optics.ior.about.name));
+        }
         Ok(found)
     }
 

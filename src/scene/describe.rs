@@ -4,6 +4,7 @@
 //! and flattened structures lose it.
 
 use super::numbers::{Finite, Length, Lengths, Numbers};
+use super::own_index::OwnIndex;
 pub use super::pictures::{ColorSpaceName, EnvironmentImage, ImageTexture, TextureSpaceName};
 use crate::fresnel::FresnelModel;
 use serde::{Deserialize, Serialize};
@@ -334,6 +335,7 @@ pub struct Diffuse {
 pub enum IndexSource {
     Name(String),
     Constant { n: f64, k: f64 },
+    Own(Box<OwnIndex>),
 }
 
 /// A data set's name or file, or one coefficient for all wavelengths.

@@ -7,6 +7,7 @@ use super::describe::{
     ReflectanceSource, RoughnessSource, Scale, Shape, TextureSpaceName,
 };
 use super::numbers::{Finite, Numbers};
+use super::own_index::{OneOrThree, OwnIndex};
 use super::pictures::WrapName;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
@@ -97,6 +98,7 @@ deserialize_by_form!(
     ExposureValue,
     IndexSource,
     LightSpectrum,
+    OneOrThree,
     ReflectanceSource,
     RoughnessSource,
     Scale,
@@ -145,7 +147,8 @@ impl<'de> Forms<'de> for LightSpectrum {
 }
 
 impl<'de> Forms<'de> for IndexSource {
-    const EXPECTED: &'static str = "a data set's name or file, an index, or { n = …, k = … }";
+    const EXPECTED: &'static str =
+        "a data set's name or file, an index, or a table such as { n = …, k = … } or { n_d = …, abbe = … }";
 
     fn name<E: Error>(name: &str) -> Result<Self, E> {
         Ok(Self::Name(name.to_owned()))
@@ -156,15 +159,23 @@ impl<'de> Forms<'de> for IndexSource {
     }
 
     fn table<A: MapAccess<'de>>(table: A) -> Result<Self, A::Error> {
-        #[derive(serde::Deserialize)]
-        #[serde(deny_unknown_fields)]
-        struct Constant {
-            n: f64,
-            #[serde(default)]
-            k: f64,
-        }
-        let Constant { n, k } = Constant::deserialize(MapAccessDeserializer::new(table))?;
-        Ok(Self::Constant { n, k })
+        let own = OwnIndex::deserialize(MapAccessDeserializer::new(table))?;
+        Ok(match (own.n, own.k.unwrap_or(OneOrThree::One(0.0))) {
+            (Some(OneOrThree::One(n)), OneOrThree::One(k)) if own.is_plain() => Self::Constant { n, k },
+            _ => Self::Own(Box::new(own)),
+        })
+    }
+}
+
+impl<'de> Forms<'de> for OneOrThree {
+    const EXPECTED: &'static str = "a number, or three for red, green and blue";
+
+    fn number<E: Error>(value: f64) -> Result<Self, E> {
+        Ok(Self::One(value))
+    }
+
+    fn list<A: SeqAccess<'de>>(list: A) -> Result<Self, A::Error> {
+        Numbers::deserialize(SeqAccessDeserializer::new(list)).map(Self::Three)
     }
 }
 

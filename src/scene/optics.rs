@@ -67,6 +67,7 @@ fn index(source: &Spanned<IndexSource>, name: &str, text: &Text, library: &Libra
     match source.get_ref() {
         IndexSource::Name(data) => library.ior(data, text.base()).map_err(|error| text.error(&source.span(), error)),
         &IndexSource::Constant { n, k } => Ok(Arc::new(Ior::constant(name, n, k))),
+        IndexSource::Own(own) => own.ior(name).map(Arc::new).map_err(|error| text.error(&source.span(), error)),
     }
 }
 

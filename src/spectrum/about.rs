@@ -110,6 +110,8 @@ pub struct About {
     pub sample: Sample,
     /// Wavelengths that the data cover, nm; `None`: everywhere.
     pub range_nm: Option<(f64, f64)>,
+    /// What was set right, guessed or passed over when the file was read, in words.
+    pub notes: Vec<String>,
 }
 
 impl About {

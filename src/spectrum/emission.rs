@@ -1,5 +1,6 @@
 //! Light of a temperature: Planck's law and the CIE daylight series, and light of single wavelengths.
 
+use super::Table;
 use super::error::SpectrumError;
 
 /// Planck constant, J s; speed of light, m/s; Boltzmann constant, J/K: exact since the SI of 2019 (CODATA 2018).
@@ -54,6 +55,32 @@ impl Daylight {
         let m1 = three_decimals((-1.3515 - 1.7703 * x + 5.9114 * y) / m);
         let m2 = three_decimals((0.0300 - 31.4424 * x + 30.0717 * y) / m);
         Ok(Self { kelvin, m1, m2 })
+    }
+
+    /// The daylight that the CIE calls D50, D55, D65 or D75, in either case: their nominal temperatures are those of an older
+    /// second radiation constant.
+    pub(super) fn of_name(name: &str) -> Option<Self> {
+        let nominal = match name.to_ascii_lowercase().as_str() {
+            "d50" => 5000.0,
+            "d55" => 5500.0,
+            "d65" => 6500.0,
+            "d75" => 7500.0,
+            _ => return None,
+        };
+        Self::new(nominal * 1.4388 / 1.438).ok()
+    }
+
+    /// A published table of this daylight that ends early, continued to the end of the series in the table's own measure.
+    pub(super) fn continued(&self, table: &Table) -> Table {
+        let points = table.wavelengths_nm().iter().copied().zip(table.values().iter().copied());
+        let mut points: Vec<(f64, f64)> = points.collect();
+        let Some(&(end, last)) = points.last() else { return table.clone() };
+        let at_end = self.at(end);
+        if at_end > 0.0 {
+            let beyond = Self::breakpoints_nm().filter(|nm| *nm > end);
+            points.extend(beyond.map(|nm| (nm, last * self.at(nm) / at_end)));
+        }
+        Table::from_points(&points, table.outside())
     }
 
     pub fn kelvin(&self) -> f64 {

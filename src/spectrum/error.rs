@@ -20,6 +20,10 @@ pub enum SpectrumError {
     #[error("cannot read {}: {source}", .path.display())]
     Read { path: PathBuf, source: std::io::Error },
 
+    /// A file of a kind that no reader is for.
+    #[error("`{name}` is a file of a kind that is not read; read are {}", super::format::READABLE)]
+    UnreadableKind { name: String },
+
     /// A file whose content is not what its format asks for.
     #[error("{}: {message}", place(.path, .line, .column))]
     Content { path: PathBuf, line: Option<usize>, column: Option<usize>, message: String },
@@ -27,6 +31,10 @@ pub enum SpectrumError {
     /// A number outside the range in which a formula holds.
     #[error("{what} is {value}, expected {expected}")]
     OutOfRange { what: &'static str, value: f64, expected: &'static str },
+
+    /// A formula without meaning.
+    #[error("{0}")]
+    Formula(String),
 
     /// An illuminant without light where the observer sees: it has no white.
     #[error("the illuminant has no light between 360 and 830 nm, so it has no white")]

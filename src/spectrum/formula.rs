@@ -9,6 +9,7 @@
 use serde::Deserialize;
 
 use super::error::Fault;
+use super::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, SpectrumError};
 
 /// Which of the nine formulas.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
@@ -60,13 +61,25 @@ impl FormulaType {
         number.checked_sub(1).and_then(|index| Self::ALL.get(index)).copied()
     }
 
-    /// How many coefficients it takes at most.
-    fn most_coefficients(self) -> usize {
+    /// How many coefficients it takes: those of whole terms, so that one that was lost is not taken for 0.
+    fn takes(self, count: usize) -> bool {
         match self {
-            Self::RefractiveIndexInfo => 17,
-            Self::Herzberger | Self::Exotic => 6,
-            Self::Retro => 4,
-            _ => 99,
+            Self::RefractiveIndexInfo => matches!(count, 1 | 5 | 9 | 11 | 13 | 15 | 17),
+            Self::Herzberger => (3..=6).contains(&count),
+            Self::Exotic => matches!(count, 3 | 6),
+            Self::Retro => count == 4,
+            // A constant and pairs.
+            _ => count % 2 == 1 && count < 99,
+        }
+    }
+
+    fn expected(self) -> &'static str {
+        match self {
+            Self::RefractiveIndexInfo => "1, 5, 9, 11, 13, 15 or 17",
+            Self::Herzberger => "3 to 6",
+            Self::Exotic => "3 or 6",
+            Self::Retro => "4",
+            _ => "an odd number: a constant and pairs",
         }
     }
 }
@@ -81,9 +94,8 @@ pub struct Formula {
 
 impl Formula {
     pub(super) fn new(kind: FormulaType, coefficients: Vec<f64>, range_nm: (f64, f64)) -> Result<Self, Fault> {
-        let most = kind.most_coefficients();
-        if coefficients.is_empty() || coefficients.len() > most {
-            let message = format!("{} coefficients, expected 1 to {most}", coefficients.len());
+        if !kind.takes(coefficients.len()) {
+            let message = format!("{} coefficients of this formula, expected {}", coefficients.len(), kind.expected());
             return Err(Fault::new(message));
         }
         if let Some(bad) = coefficients.iter().find(|c| !c.is_finite()) {
@@ -103,6 +115,12 @@ impl Formula {
             }
         }
         Ok(formula)
+    }
+
+    /// A formula that is to hold in the visible.
+    pub fn visible(kind: FormulaType, coefficients: Vec<f64>) -> Result<Self, SpectrumError> {
+        let formula = Self::new(kind, coefficients, (LAMBDA_MIN_NM, LAMBDA_MAX_NM));
+        formula.map_err(|fault| SpectrumError::Formula(fault.message))
     }
 
     /// n at a vacuum wavelength.
@@ -183,6 +201,31 @@ mod tests {
         let coefficients = vec![0.0, 1.03961212, 0.00600069867, 0.231792344, 0.0200179144, 1.01046945, 103.560653];
         let bk7 = Formula::new(FormulaType::Sellmeier2, coefficients, (300.0, 2500.0)).unwrap();
         assert!((bk7.at(587.5618) - 1.5168).abs() < 1e-5);
+    }
+
+    /// One coefficient lost gives another glass: n was 1.821 for 1.517.
+    #[test]
+    fn a_lost_coefficient_is_told() {
+        let all = [0.0, 1.03961212, 0.00600069867, 0.231792344, 0.0200179144, 1.01046945, 103.560653];
+        let message = |kind: FormulaType, count: usize| {
+            let coefficients = all.iter().chain(&all).chain(&all).copied().take(count).collect();
+            Formula::new(kind, coefficients, (300.0, 2500.0)).err().map(|fault| fault.message).unwrap_or_default()
+        };
+        let told = "6 coefficients of this formula, expected an odd number: a constant and pairs";
+        assert_eq!(message(FormulaType::Sellmeier2, 6), told);
+        for (kind, wrong) in [
+            (FormulaType::Sellmeier, 4),
+            (FormulaType::Polynomial, 10),
+            (FormulaType::RefractiveIndexInfo, 10),
+            (FormulaType::Cauchy, 2),
+            (FormulaType::Gases, 2),
+            (FormulaType::Herzberger, 7),
+            (FormulaType::Retro, 3),
+            (FormulaType::Exotic, 5),
+            (FormulaType::Sellmeier, 0),
+        ] {
+            assert!(message(kind, wrong).contains("coefficients of this formula"), "{kind:?}");
+        }
     }
 
     #[test]

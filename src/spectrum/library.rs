@@ -2,7 +2,7 @@
 //!
 //! Opening a library does nothing; a file is read and parsed when it is first asked for, and kept. Names are paths below
 //! the quantity's folder without `.toml`: "Au/olmon-2012-evaporated" is `spectra/ior/Au/olmon-2012-evaporated.toml`;
-//! upper and lower case do not matter. A name that ends in .toml, .yml, .yaml or .csv is a file beside the scene.
+//! upper and lower case do not matter. A name with the ending of a data file (see `format`) is a file beside the scene.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -13,9 +13,11 @@ use serde::Deserialize;
 
 use super::curve::common_range;
 use super::error::Fault;
+use super::format::{Format, file_of, glass, text_of};
 use super::toml_file::{self, Loaded};
 use super::{
-    About, ColorMatching, Dataset, Ior, Observer, Quantity, Spectrum, SpectrumError, csv_file, nearest, rii_page,
+    About, ColorMatching, Dataset, Daylight, Ior, Observer, Quantity, Spectrum, SpectrumError, agf_file, nearest,
+    rii_page, spdx_file, table_file,
 };
 
 static SPECTRA: Dir = include_dir!("$CARGO_MANIFEST_DIR/spectra");
@@ -58,8 +60,10 @@ impl Library {
                 _ => Err(not_a("an index of refraction")),
             },
             Format::Yaml => rii_page::read(text, name),
-            Format::Csv => {
-                let (n, k, about) = csv_file::read_ior(text, name)?;
+            Format::Agf => agf_file::read(text, name, glass(name).map(|(_, glass)| glass)),
+            Format::Spdx => Err(not_a("an index of refraction: this format holds lights and reflectances")),
+            Format::Columns => {
+                let (n, k, about) = table_file::read_ior(text, name)?;
                 let range_nm = [n.range_nm(), k.range_nm()].into_iter().flatten().reduce(common_range);
                 Ok(Ior { n, k, about: About { range_nm, ..about } })
             }
@@ -81,6 +85,20 @@ impl Library {
         self.curve(Quantity::Illuminant, name, base)
     }
 
+    /// An illuminant that is to shine in a picture: where the tables of D50, D55, D65 and D75 end at 780 nm as published, the
+    /// light goes on to 830 nm by the components that they were made from (CIE 15:2004, table T.2).
+    pub fn light(&self, name: &str, base: &Path) -> Result<Arc<Dataset>, SpectrumError> {
+        let found = self.illuminant(name, base)?;
+        Ok(match (Daylight::of_name(name), &found.spectrum) {
+            (Some(daylight), Spectrum::Table(table)) => {
+                let spectrum = Spectrum::Table(daylight.continued(table));
+                let about = About { range_nm: spectrum.range_nm(), ..found.about.clone() };
+                Arc::new(Dataset { spectrum, about })
+            }
+            _ => found,
+        })
+    }
+
     /// The colour matching functions of an observer.
     pub fn observer(&self, observer: Observer) -> Result<Arc<ColorMatching>, SpectrumError> {
         let name = observer.name();
@@ -90,6 +108,19 @@ impl Library {
                 _ => Err(not_a("an observer")),
             }
         })
+    }
+
+    /// Why a built-in index stands for its material, where several were published.
+    pub fn why(&self, name: &str) -> Option<String> {
+        let text = SPECTRA.get_file("why.csv")?.contents();
+        let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text);
+        let mut records = reader.records().filter_map(Result::ok);
+        records.find(|record| record.get(0) == Some(name)).and_then(|record| record.get(1).map(str::to_owned))
+    }
+
+    /// Whether a name is that of a data file rather than of something in the library.
+    pub fn is_file_name(name: &str) -> bool {
+        Format::of(name).is_some()
     }
 
     /// The names of all data sets of a quantity, sorted.
@@ -130,7 +161,7 @@ impl Library {
         for dir in &self.dirs {
             let origin = dir.join("materials").join(&file);
             if origin.is_file() {
-                let text = read_file(&origin)?;
+                let text = text_of(&origin)?;
                 let base = origin.parent().unwrap_or(dir).to_path_buf();
                 return Ok(MaterialText { name: name.to_owned(), text, origin, base });
             }
@@ -150,7 +181,14 @@ impl Library {
                     Loaded::Curve(dataset) => return Ok(dataset),
                     _ => return Err(not_a(quantity.as_str())),
                 },
-                Format::Csv => csv_file::read_curve(text, name, quantity)?,
+                Format::Columns => table_file::read_curve(text, name, quantity)?,
+                Format::Spdx if quantity != Quantity::Absorption => spdx_file::read(text, name, quantity)?,
+                Format::Spdx => return Err(not_a("an absorption: this format holds lights and reflectances")),
+                Format::Agf if quantity == Quantity::Absorption => {
+                    let ior = agf_file::read(text, name, glass(name).map(|(_, glass)| glass))?;
+                    return Ok(Dataset { spectrum: ior.k.absorption_from_k(), about: ior.about });
+                }
+                Format::Agf => return Err(not_a(&format!("a {quantity} but a glass catalogue"))),
                 Format::Yaml if quantity == Quantity::Absorption => {
                     let (k, about) = rii_page::read_k(text, name)?;
                     let range_nm = k.range_nm();
@@ -185,8 +223,14 @@ impl Library {
             return Ok(Arc::clone(known));
         }
         let file = match format {
-            Some(format) => Found { text: read_file(&key)?, path: key.clone(), name: name.to_owned(), format },
-            None => self.find(quantity, name)?,
+            Some(format) => {
+                let path = base.join(file_of(name));
+                Found { text: text_of(&path)?, path, name: name.to_owned(), format }
+            }
+            None => self.find(quantity, name).map_err(|error| match base.join(name).is_file() {
+                true => SpectrumError::UnreadableKind { name: name.to_owned() },
+                false => error,
+            })?,
         };
         let loaded = read(&file.text, &file.name, file.format).map_err(|fault| fault.in_file(file.path, &file.text))?;
         let loaded = Arc::new(loaded);
@@ -214,7 +258,7 @@ impl Library {
         for dir in &self.dirs {
             let path = dir.join("spectra").join(&file);
             if path.is_file() {
-                let text = read_file(&path)?;
+                let text = text_of(&path)?;
                 return Ok(found(path, text));
             }
         }
@@ -230,32 +274,8 @@ struct Found {
     format: Format,
 }
 
-#[derive(Clone, Copy)]
-enum Format {
-    Toml,
-    Yaml,
-    Csv,
-}
-
-impl Format {
-    /// The format that a name's ending tells; `None` for a name in the library.
-    fn of(name: &str) -> Option<Self> {
-        let ending = Path::new(name).extension()?.to_str()?.to_lowercase();
-        match ending.as_str() {
-            "toml" => Some(Self::Toml),
-            "yml" | "yaml" => Some(Self::Yaml),
-            "csv" => Some(Self::Csv),
-            _ => None,
-        }
-    }
-}
-
 fn not_a(what: &str) -> Fault {
     Fault::new(format!("this is not {what}"))
-}
-
-fn read_file(path: &Path) -> Result<String, SpectrumError> {
-    std::fs::read_to_string(path).map_err(|source| SpectrumError::Read { path: path.to_owned(), source })
 }
 
 fn aliases(text: &str) -> Vec<String> {

@@ -2,7 +2,8 @@
 //!
 //! - `curve`: [`Spectrum`], the closed set of functions; `table`, `formula`, `emission`, `bands`, `sigmoid` are its kinds.
 //! - `library`: [`Library`], data sets and materials by name, built in or from a user's folders; `toml_file`,
-//!   `rii_page`, `csv_file` read the formats; `about` is the provenance that comes along.
+//!   `rii_page`, `table_file`, `agf_file`, `spdx_file` read the formats; `about` is the provenance that comes along. Text of columns passes
+//!   through `words`, `rows`, `wave_unit` and `columns`; `absorbing` knows what states an absorption, `noise` what is passed over.
 //! - `integrate`: exact integrals of products of spectra; `observer`: the CIE observers.
 //! - `density`: how densely wavelengths are chosen; `nodes`: those that the renderer uses, and how they sample an integral;
 //!   `lanes`: those of one path.
@@ -14,32 +15,41 @@
 //! Wavelengths are vacuum wavelengths in nm; what reaches a picture uses `libm`, so that every machine agrees.
 
 mod about;
+mod absorbing;
+mod agf_file;
 mod arena;
 mod bands;
 mod bins;
 mod color;
 mod colorimeter;
-mod csv_file;
+mod columns;
 mod curve;
 mod delta_e;
 mod density;
 mod emission;
 mod error;
+mod format;
 mod formula;
 mod integrate;
 mod lanes;
 mod library;
 mod nodes;
+mod noise;
 mod observer;
 mod primaries;
 mod rii_page;
+mod rows;
 mod sigmoid;
 mod spaces;
+mod spdx_file;
 mod table;
+mod table_file;
 mod tint;
 mod toml_file;
 mod upsample;
 mod upsample_table;
+mod wave_unit;
+mod words;
 
 pub use about::{About, Confidence, Dataset, Ior, Quantity, Sample, Source, citation};
 pub use arena::{Arena, SpectrumId, Tables};

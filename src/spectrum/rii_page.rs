@@ -11,14 +11,17 @@
 //!     coefficients: 0 1.0396 0.0060
 //! ```
 //!
-//! Some pages repeat a wavelength; the first of the repeats counts. Other keys (conditions, properties) are not read.
+//! Some pages repeat a wavelength: values that agree are averaged, otherwise the first counts. Other keys (conditions,
+//! properties) are not read.
 
 use serde::Deserialize;
 use serde_saphyr::Spanned;
 
 use super::curve::common_range;
 use super::error::Fault;
+use super::noise::agree;
 use super::table::{Bound, Number};
+use super::words::Word;
 use super::{About, Formula, FormulaType, Ior, Outside, Sample, Source, Spectrum, Table};
 
 #[derive(Deserialize)]
@@ -43,19 +46,21 @@ struct Entry {
 /// Reads a page as an index of refraction. A page with k alone has no n and is refused, but see [`read_k`].
 pub(super) fn read(text: &str, name: &str) -> Result<Ior, Fault> {
     let page = parse(text)?;
-    let (n, k) = page.spectra(text)?;
+    let mut notes = Vec::new();
+    let (n, k) = page.spectra(text, &mut notes)?;
     let n = n.ok_or_else(|| Fault::new("the page has no n, expected `tabulated nk`, `tabulated n` or `formula N`"))?;
     let k = k.unwrap_or(Spectrum::Constant(0.0));
     let range_nm = [n.range_nm(), k.range_nm()].into_iter().flatten().reduce(common_range);
-    Ok(Ior { n, k, about: About { range_nm, ..page.about(name) } })
+    Ok(Ior { n, k, about: About { range_nm, notes, ..page.about(name) } })
 }
 
 /// Reads the extinction coefficient alone.
 pub(super) fn read_k(text: &str, name: &str) -> Result<(Table, About), Fault> {
     let page = parse(text)?;
-    match page.spectra(text)?.1 {
+    let mut notes = Vec::new();
+    match page.spectra(text, &mut notes)?.1 {
         Some(Spectrum::Table(k)) => {
-            let about = About { range_nm: k.range_nm(), ..page.about(name) };
+            let about = About { range_nm: k.range_nm(), notes, ..page.about(name) };
             Ok((k, about))
         }
         _ => Err(Fault::new("the page has no k, expected `tabulated nk` or `tabulated k`")),
@@ -86,11 +91,11 @@ impl Page {
             ..Source::default()
         };
         let description = plain_text(self.comments.as_deref().unwrap_or_default());
-        About { name: name.to_owned(), source, sample: Sample { description, ..Sample::default() }, range_nm: None }
+        About { name: name.to_owned(), source, sample: Sample { description, ..Sample::default() }, ..About::default() }
     }
 
     /// (n, k), as far as the page has them.
-    fn spectra(&self, text: &str) -> Result<(Option<Spectrum>, Option<Spectrum>), Fault> {
+    fn spectra(&self, text: &str, notes: &mut Vec<String>) -> Result<(Option<Spectrum>, Option<Spectrum>), Fault> {
         let (mut n, mut k) = (None, None);
         for entry in &self.data {
             let place = &entry.r#type.referenced;
@@ -99,15 +104,15 @@ impl Page {
             let (new_n, new_k) = match kind {
                 "tabulated nk" => {
                     let [nm, n, k] = entry.columns(text, kind)?;
-                    (Some(table(&nm, &n, "n")?), Some(table(&nm, &k, "k")?))
+                    (Some(table(&nm, &n, "n", notes)?), Some(table(&nm, &k, "k", notes)?))
                 }
                 "tabulated n" => {
                     let [nm, n] = entry.columns(text, kind)?;
-                    (Some(table(&nm, &n, "n")?), None)
+                    (Some(table(&nm, &n, "n", notes)?), None)
                 }
                 "tabulated k" => {
                     let [nm, k] = entry.columns(text, kind)?;
-                    (None, Some(table(&nm, &k, "k")?))
+                    (None, Some(table(&nm, &k, "k", notes)?))
                 }
                 _ => {
                     let number = kind.strip_prefix("formula ").and_then(|number| number.trim().parse().ok());
@@ -130,9 +135,9 @@ impl Page {
     }
 }
 
-fn table(nm: &[Number], values: &[Number], what: &str) -> Result<Spectrum, Fault> {
+fn table(nm: &[Number], values: &[Number], what: &str, notes: &mut Vec<String>) -> Result<Spectrum, Fault> {
     let bound = if what == "n" { Bound::Positive } else { Bound::NonNegative };
-    Table::from_numbers(nm, values, what, bound, Outside::Hold).map(Spectrum::Table)
+    Table::from_numbers(nm, values, what, bound, Outside::Hold, notes).map(Spectrum::Table)
 }
 
 impl Entry {
@@ -149,13 +154,17 @@ impl Entry {
                 let message = format!("{} numbers in a row, expected {N} for `{kind}`", row.len());
                 return Err(Fault::at(offset, message));
             }
-            let nm = row[0].nm_from_um()?;
-            if columns[0].last().is_some_and(|last: &Number| last.value == nm.value) {
+            let nm = row[0].scaled(3)?;
+            let values = row[1..].iter().map(|word| word.number()).collect::<Result<Vec<_>, _>>()?;
+            let repeats = columns[0].last().is_some_and(|last: &Number| last.value == nm.value);
+            let agrees = |(column, value): (&Vec<Number>, &Number)| {
+                column.last().is_some_and(|last| agree(last.value, value.value))
+            };
+            if repeats && !columns[1..].iter().zip(&values).all(agrees) {
                 continue;
             }
-            columns[0].push(nm);
-            for (column, word) in columns.iter_mut().zip(row).skip(1) {
-                column.push(word.number()?);
+            for (column, number) in columns.iter_mut().zip(std::iter::once(nm).chain(values)) {
+                column.push(number);
             }
         }
         Ok(columns)
@@ -169,7 +178,7 @@ impl Entry {
         let coefficients: Result<Vec<_>, _> =
             Words::of(coefficients, text).iter().map(|word| word.number().map(|number| number.value)).collect();
         let range: Result<Vec<_>, _> =
-            Words::of(range, text).iter().map(|word| word.nm_from_um().map(|number| number.value)).collect();
+            Words::of(range, text).iter().map(|word| word.scaled(3).map(|number| number.value)).collect();
         let &[low, high] = range?.as_slice() else {
             return Err(fault("`wavelength_range` is not two numbers"));
         };
@@ -180,12 +189,6 @@ impl Entry {
 /// The words of a YAML string with their places in the file.
 struct Words<'a> {
     lines: Vec<Vec<Word<'a>>>,
-}
-
-#[derive(Clone, Copy)]
-pub(super) struct Word<'a> {
-    pub text: &'a str,
-    pub offset: usize,
 }
 
 impl<'a> Words<'a> {
@@ -213,26 +216,6 @@ impl<'a> Words<'a> {
 
     fn iter(&self) -> impl Iterator<Item = Word<'a>> {
         self.lines.iter().flatten().copied()
-    }
-}
-
-impl Word<'_> {
-    pub fn number(self) -> Result<Number, Fault> {
-        let value = self.text.parse().map_err(|_| self.no_number())?;
-        Ok(Number { value, offset: self.offset })
-    }
-
-    /// A wavelength in µm as nm: 0.0517 becomes 51.7 and not 51.699999999999996, by moving the decimal point.
-    pub fn nm_from_um(self) -> Result<Number, Fault> {
-        self.number()?;
-        let (mantissa, exponent) = self.text.split_once(['e', 'E']).unwrap_or((self.text, "0"));
-        let exponent: i32 = exponent.parse().map_err(|_| self.no_number())?;
-        let value = format!("{mantissa}e{}", exponent.saturating_add(3)).parse().map_err(|_| self.no_number())?;
-        Ok(Number { value, offset: self.offset })
-    }
-
-    fn no_number(self) -> Fault {
-        Fault::at(self.offset, format!("`{}`, expected a number", self.text))
     }
 }
 

@@ -4,6 +4,7 @@
 //! overshoots, and is what comparisons with published tables use.
 
 use super::error::Fault;
+use super::noise::{Point, cleaned};
 
 /// What a table is worth outside its range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,26 +27,43 @@ pub(super) struct Number {
 pub(super) enum Bound {
     Positive,
     NonNegative,
+    /// Of a light, as instruments tell it.
+    Power,
     Fraction,
+    /// What passes through something, whose logarithm is taken.
+    Transmittance,
     Any,
 }
 
+/// How far below 0 a k is noise, and a spectral power in shares of its peak.
+const K_NOISE: f64 = 1e-6;
+const POWER_NOISE: f64 = 1e-3;
+
+/// Where reflectances and transmittances are still noise.
+const FRACTION_NOISE: (f64, f64) = (-0.001, 1.01);
+
 impl Bound {
-    fn allows(self, value: f64) -> bool {
-        value.is_finite()
-            && match self {
-                Self::Positive => value > 0.0,
-                Self::NonNegative => value >= 0.0,
-                Self::Fraction => (0.0..=1.0).contains(&value),
-                Self::Any => true,
-            }
+    /// The value itself if it is possible, the nearest possible one if it is off by noise; `peak` is the largest of all.
+    pub fn nearest(self, value: f64, peak: f64) -> Option<f64> {
+        let (low, high) = FRACTION_NOISE;
+        let above = |floor: f64| (value >= -floor).then_some(value.max(0.0));
+        let nearest = match self {
+            Self::Positive => (value > 0.0).then_some(value),
+            Self::NonNegative => above(K_NOISE),
+            Self::Power => above(K_NOISE.max(POWER_NOISE * peak)),
+            Self::Fraction => (low..=high).contains(&value).then_some(value.clamp(0.0, 1.0)),
+            Self::Transmittance => (value > 0.0 && value <= high).then_some(value.min(1.0)),
+            Self::Any => Some(value),
+        };
+        nearest.filter(|value| value.is_finite())
     }
 
-    fn expected(self) -> &'static str {
+    pub fn expected(self) -> &'static str {
         match self {
             Self::Positive => "a number above 0",
-            Self::NonNegative => "a number of 0 or more",
+            Self::NonNegative | Self::Power => "a number of 0 or more",
             Self::Fraction => "a number from 0 to 1",
+            Self::Transmittance => "a number above 0, up to 1",
             Self::Any => "a finite number",
         }
     }
@@ -60,13 +78,15 @@ pub struct Table {
 }
 
 impl Table {
-    /// From wavelengths (nm, strictly increasing, positive) and as many values within a bound. `what` names the values.
+    /// From wavelengths (nm, positive, up or down) and as many values within a bound, but for noise, of which `notes` tells
+    /// what became. `what` names the values.
     pub(super) fn from_numbers(
         nm: &[Number],
         values: &[Number],
         what: &str,
         bound: Bound,
         outside: Outside,
+        notes: &mut Vec<String>,
     ) -> Result<Self, Fault> {
         let Some(first) = nm.first() else {
             return Err(Fault::new("the table is empty, expected at least one wavelength"));
@@ -76,21 +96,14 @@ impl Table {
                 format!("{} wavelengths but {} values of {what}, expected as many of each", nm.len(), values.len());
             return Err(Fault::at(first.offset, message));
         }
-        if let Some(bad) = nm.iter().find(|number| !Bound::Positive.allows(number.value)) {
+        if let Some(bad) = nm.iter().find(|number| Bound::Positive.nearest(number.value, 0.0).is_none()) {
             let message = format!("the wavelength {} nm, expected {}", bad.value, Bound::Positive.expected());
             return Err(Fault::at(bad.offset, message));
         }
-        if let Some(pair) = nm.windows(2).find(|pair| pair[1].value <= pair[0].value) {
-            let [before, after] = [pair[0].value, pair[1].value];
-            let message = format!("the wavelength {after} nm follows {before} nm, expected increasing wavelengths");
-            return Err(Fault::at(pair[1].offset, message));
-        }
-        if let Some((number, at)) = values.iter().zip(nm).find(|(number, _)| !bound.allows(number.value)) {
-            let message = format!("{what} is {} at {} nm, expected {}", number.value, at.value, bound.expected());
-            return Err(Fault::at(number.offset, message));
-        }
-        let plain = |numbers: &[Number]| numbers.iter().map(|number| number.value).collect();
-        Ok(Self { nm: plain(nm), value: plain(values), outside })
+        let points = nm.iter().zip(values).map(|(&nm, &value)| Point { nm, value }).collect();
+        let (nm, value) =
+            cleaned(points, what, bound, notes)?.iter().map(|point| (point.nm.value, point.value.value)).unzip();
+        Ok(Self { nm, value, outside })
     }
 
     /// From points (nm, value) in any order; later ones of equal wavelength and ones that are not finite are dropped.
@@ -149,7 +162,7 @@ mod tests {
         let numbers = |values: &[f64]| -> Vec<_> {
             values.iter().enumerate().map(|(offset, &value)| Number { value, offset }).collect()
         };
-        Table::from_numbers(&numbers(nm), &numbers(value), "k", Bound::NonNegative, outside)
+        Table::from_numbers(&numbers(nm), &numbers(value), "k", Bound::NonNegative, outside, &mut Vec::new())
     }
 
     fn table(outside: Outside) -> Table {
@@ -174,8 +187,8 @@ mod tests {
         let refuse = |nm: &[f64], value: &[f64]| read(nm, value, Outside::Hold).unwrap_err().message;
         assert!(refuse(&[], &[]).contains("empty"));
         assert!(refuse(&[1.0], &[]).contains("as many"));
-        assert!(refuse(&[2.0, 1.0], &[0.0, 0.0]).contains("increasing"));
-        assert!(refuse(&[1.0, 1.0], &[0.0, 0.0]).contains("increasing"));
+        assert!(refuse(&[400.0, 600.0, 500.0, 700.0], &[0.0; 4]).contains("increasing"));
+        assert!(refuse(&[500.0, 500.0], &[0.0, 1.0]).contains("increasing"));
         assert!(refuse(&[-1.0], &[0.0]).contains("above 0"));
         assert!(refuse(&[1.0], &[f64::NAN]).contains("0 or more"));
         assert!(refuse(&[1.0], &[-0.5]).contains("k is -0.5 at 1 nm"));

@@ -18,6 +18,7 @@ use toml::Spanned;
 
 use super::curve::common_range;
 use super::error::Fault;
+use super::noise::note_likely_um;
 use super::table::{Bound, Number};
 use super::{
     About, Band, Bands, ColorMatching, Dataset, Formula, FormulaType, Ior, Line, Outside, Quantity, Sample, Source,
@@ -118,13 +119,13 @@ pub(super) fn read(text: &str, name: &str, expected: Quantity) -> Result<Loaded,
         return Err(Fault::at(file.quantity.span().start, message));
     }
     file.check_sections(quantity)?;
-    let about =
-        About { name: name.to_owned(), source: file.source.clone(), sample: file.sample.clone(), range_nm: None };
+    let (source, sample) = (file.source.clone(), file.sample.clone());
+    let mut about = About { name: name.to_owned(), source, sample, ..About::default() };
     match quantity {
         Quantity::Ior => file.ior(about).map(Loaded::Ior),
         Quantity::Observer => file.observer(about).map(Loaded::Observer),
         Quantity::Reflectance => {
-            let table = file.value_table("a reflectance", Bound::Fraction, Outside::Hold)?;
+            let table = file.value_table("a reflectance", Bound::Fraction, Outside::Hold, &mut about.notes)?;
             Ok(curve(Spectrum::Table(table), about))
         }
         Quantity::Absorption => file.absorption(about),
@@ -169,10 +170,13 @@ impl Columns {
         values: &Option<Vec<Spanned<f64>>>,
         bound: Bound,
         outside: Outside,
+        notes: &mut Vec<String>,
     ) -> Result<Table, Fault> {
         let values =
             values.as_ref().ok_or_else(|| Fault::new(format!("the table has no {what}, expected a list of it")))?;
-        Table::from_numbers(&numbers(&self.wavelength_nm), &numbers(values), what, bound, outside)
+        let nm = numbers(&self.wavelength_nm);
+        note_likely_um(&nm, "wavelength_nm", notes);
+        Table::from_numbers(&nm, &numbers(values), what, bound, outside, notes)
     }
 }
 
@@ -215,16 +219,16 @@ impl File {
         }
     }
 
-    fn value_table(&self, what: &str, bound: Bound, outside: Outside) -> Result<Table, Fault> {
+    fn value_table(&self, what: &str, bound: Bound, outside: Outside, notes: &mut Vec<String>) -> Result<Table, Fault> {
         let table = self.table.as_ref().ok_or_else(|| Fault::new("there are no numbers, expected a [table]"))?;
         let columns = table.get_ref();
         if columns.value.is_none() {
             return Err(Fault::at(table.span().start, "the table has no `value`, expected a list of it"));
         }
-        columns.table(what, &columns.value, bound, outside)
+        columns.table(what, &columns.value, bound, outside, notes)
     }
 
-    fn ior(self, about: About) -> Result<Ior, Fault> {
+    fn ior(self, mut about: About) -> Result<Ior, Fault> {
         let (n, k) = match (&self.formula, &self.table) {
             (Some(formula), _) => {
                 let place = formula.span().start;
@@ -235,32 +239,36 @@ impl File {
             (None, Some(table)) => {
                 let columns = table.get_ref();
                 let n = columns
-                    .table("n", &columns.n, Bound::Positive, Outside::Hold)
+                    .table("n", &columns.n, Bound::Positive, Outside::Hold, &mut about.notes)
                     .map_err(|fault| fault.or_at(table.span().start))?;
                 (Spectrum::Table(n), columns.k.is_some().then_some(columns))
             }
             (None, None) => return Err(Fault::new("there are no numbers, expected a [table] or a [formula]")),
         };
         let k = match k {
-            Some(columns) => Spectrum::Table(columns.table("k", &columns.k, Bound::NonNegative, Outside::Hold)?),
+            Some(columns) => {
+                Spectrum::Table(columns.table("k", &columns.k, Bound::NonNegative, Outside::Hold, &mut about.notes)?)
+            }
             None => Spectrum::Constant(0.0),
         };
         let range_nm = [n.range_nm(), k.range_nm()].into_iter().flatten().reduce(common_range);
         Ok(Ior { n, k, about: About { range_nm, ..about } })
     }
 
-    fn observer(self, about: About) -> Result<ColorMatching, Fault> {
+    fn observer(self, mut about: About) -> Result<ColorMatching, Fault> {
         let table = self.table.as_ref().ok_or_else(|| Fault::new("there are no numbers, expected a [table]"))?;
         let columns = table.get_ref();
-        let part = |what, values| {
-            columns.table(what, values, Bound::Any, Outside::Zero).map_err(|fault| fault.or_at(table.span().start))
+        let mut part = |what, values| {
+            columns
+                .table(what, values, Bound::Any, Outside::Zero, &mut about.notes)
+                .map_err(|fault| fault.or_at(table.span().start))
         };
         let (x, y, z) = (part("x", &columns.x)?, part("y", &columns.y)?, part("z", &columns.z)?);
         let about = About { range_nm: y.range_nm(), ..about };
         Ok(ColorMatching { x, y, z, about })
     }
 
-    fn absorption(self, about: About) -> Result<Loaded, Fault> {
+    fn absorption(self, mut about: About) -> Result<Loaded, Fault> {
         let Some(AbsorptionKeys { unit, base }) = &self.absorption else {
             return Err(Fault::new(
                 "there is no [absorption], expected one with unit = \"1/m\", \"1/cm\" or \"1/mm\" and base = \"e\" or \"10\"",
@@ -278,17 +286,19 @@ impl File {
                 Spectrum::Bands(bands.scaled(factor))
             }
             None => {
-                let table = self.value_table("an absorption coefficient", Bound::NonNegative, Outside::Hold)?;
+                let table =
+                    self.value_table("an absorption coefficient", Bound::NonNegative, Outside::Hold, &mut about.notes)?;
                 Spectrum::Table(table.map(|value| value * factor))
             }
         };
         Ok(curve(spectrum, about))
     }
 
-    fn illuminant(self, about: About) -> Result<Loaded, Fault> {
+    fn illuminant(self, mut about: About) -> Result<Loaded, Fault> {
         let table = match &self.table {
             Some(_) => {
-                Some(Spectrum::Table(self.value_table("a spectral power", Bound::NonNegative, Outside::Zero)?))
+                let table = self.value_table("a spectral power", Bound::Power, Outside::Zero, &mut about.notes)?;
+                Some(Spectrum::Table(table))
             }
             None => None,
         };

@@ -68,10 +68,11 @@ fn broken_data_files_are_told_with_both_places() {
     let scene = |file: &str| material(&format!("conductor]\nior = §\"{file}\""));
     for (file, content, says) in [
         ("own.csv", "", "own.csv: the file is empty"),
-        ("own.csv", "400,1,2\n", "own.csv:1:1: numbers without a header"),
+        ("own.csv", "0.3,1,2\n2.5,1,2\n", "own.csv:1:1: numbers without a header"),
         ("own.csv", "wavelength_nm,n,k\n400,1,2\n500,-1,2\n", "own.csv:3:5: n is -1"),
         ("own.csv", "wavelength_nm,n,k\n400,1,2\n500,1,nan\n", "own.csv:3:7: "),
-        ("own.csv", "wavelength_nm,n,k\n400,1,2\n400,1,2\n", "own.csv:3:1: "),
+        ("own.csv", "wavelength_nm,n,k\n400,1,2\n400,2,2\n", "own.csv:3:1: "),
+        ("own.xlsx", "PK", "`own.xlsx` is a file of a kind that is not read"),
         ("own.csv", "wavelength_nm,n,k\n400,1\n", "own.csv:2:1: 2 columns"),
         ("own.yml", "", "own.yml"),
         ("own.yml", "DATA:\n  - type: tabulated nk\n    data: |\n        0.4 1\n", "own.yml:4:"),

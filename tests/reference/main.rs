@@ -1,4 +1,4 @@
-//! `docs/reference.md` is written from `src/scene/describe.rs` and `pictures.rs`, so that it cannot go stale: run with `WRITE_REFERENCE=1` after
+//! `docs/reference.md` is written from `src/scene/describe.rs`, `pictures.rs` and `own_index.rs`, so that it cannot go stale: run with `WRITE_REFERENCE=1` after
 //! a change there. Its examples are scenes that resolve.
 
 #[path = "../common/mod.rs"]
@@ -9,8 +9,13 @@ use parse::{Item, Kind};
 use spectrel::scene::Overrides;
 use std::fmt::Write;
 
-const SOURCE: &str =
-    concat!(include_str!("../../src/scene/describe.rs"), "\n", include_str!("../../src/scene/pictures.rs"));
+const SOURCE: &str = concat!(
+    include_str!("../../src/scene/describe.rs"),
+    "\n",
+    include_str!("../../src/scene/pictures.rs"),
+    "\n",
+    include_str!("../../src/scene/own_index.rs")
+);
 const PATH: &str = "docs/reference.md";
 
 /// How a scene's TOML shows each part: one example below the part's heading, put into a whole scene by [`whole`].
@@ -90,7 +95,8 @@ const EXAMPLES: &[(&str, &str)] = &[
 
 const HEAD: &str = "# Scenes and materials\n\n\
     Every key of a scene file, and of the material files of `materials/`, which hold one entry of `[materials]` each. Names of\n\
-    materials and data are those of `spectrel list`; a name that ends in `.toml`, `.csv`, `.yml` or `.yaml` is a file beside the scene.\n\
+    materials and data are those of `spectrel list`; names of files\n\
+    (`.csv`, `.txt`, `.toml`, `.yml` and more, see [data files](data-files.md)) are relative to the scene.\n\
     This page is written from the program's own descriptions (`tests/reference`).\n";
 
 fn reference() -> String {

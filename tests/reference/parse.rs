@@ -44,7 +44,10 @@ const VALUES: &[(&str, &str)] = &[
     ("FresnelModel", "name of a [model](fresnel.md)"),
     ("Spanned<FresnelModel>", "name of a [model](fresnel.md)"),
     ("Spanned<ExposureValue>", "`\"auto\"` or EV"),
-    ("Spanned<IndexSource>", "name, n, or `{ n = …, k = … }`"),
+    ("Spanned<IndexSource>", "name or [file](data-files.md), n, or [own index](#own-index)"),
+    ("OneOrThree", "number, or [r, g, b]"),
+    ("f64", "number"),
+    ("Vec<f64>", "list of numbers"),
     ("Spanned<AbsorptionSource>", "name, or number in 1/m"),
     ("Spanned<ReflectanceSource>", "name, number 0…1, `{ rgb = [r, g, b] }`, or [image](#image-texture)"),
     ("Spanned<RoughnessSource>", "number, or [image](#image-texture)"),
@@ -56,7 +59,7 @@ const VALUES: &[(&str, &str)] = &[
 impl Item {
     /// Forms of a single value are explained where they are used.
     pub fn shown(&self) -> bool {
-        !VALUES.iter().any(|(ty, _)| *ty == format!("Spanned<{}>", self.name))
+        !VALUES.iter().any(|(ty, _)| *ty == self.name || *ty == format!("Spanned<{}>", self.name))
     }
 
     /// "StepCut" as "Step cut".

@@ -30,7 +30,7 @@ fn known(args: &F0Args, library: &Library, instrument: &Instrument) -> Result<Ve
 /// A table of others, row by row.
 pub fn checked(file: &Path, args: &F0Args, library: &Library, instrument: &Instrument) -> Result<Checked, SceneError> {
     let text = tables::contents(file)?;
-    let claims = claims::read(&text).map_err(|error| tables::wrong(file, error, "table,material,r,g,b,encoding"))?;
+    let claims = claims::read(&text).map_err(|error| tables::wrong(file, error, "material,r,g,b"))?;
     let known = known(args, library, instrument)?;
     let verdict = |claim: Claim| {
         let own = meant(&claim.material, library).and_then(|optics| {

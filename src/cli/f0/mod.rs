@@ -24,7 +24,8 @@ pub struct F0Args {
     /// A row for each published data set of each material, and how far apart they are (ΔE2000)
     #[arg(long, conflicts_with_all = ["check", "match_color"])]
     all_data_sets: bool,
-    /// Judge a CSV table of colours (columns material, r, g, b, encoding and perhaps table; encoding is linear or sRGB) against every data
+    /// Judge a CSV table of colours (columns material or name, r, g, b and perhaps table and encoding, which is linear or sRGB; linear
+    /// is assumed where it is not said) against every data
     /// set of each material: a match is ΔE2000 ≤ 1, near ≤ 2, and what matches only under the other encoding is mis-encoded
     #[arg(long, value_name = "FILE", conflicts_with = "match_color")]
     check: Option<PathBuf>,
@@ -43,7 +44,7 @@ pub struct F0Args {
     /// Whether the light's white becomes that of the space: bradford or none
     #[arg(long, value_name = "HOW", default_value = "bradford", value_parser = adaptation)]
     adapt: Adaptation,
-    /// What to print; csv, json and toml have every column
+    /// What to print; csv, json and toml have every column, gltf (spheres) and mtlx (open_pbr_surface) are files to load
     #[arg(long, value_enum, default_value = "table")]
     format: FormatName,
     #[command(flatten)]
@@ -56,6 +57,7 @@ Examples:
   spectrel f0 gold copper diamond --format json
   spectrel f0 --all --format html > f0.html          a page with swatches
   spectrel f0 gold --all-data-sets                   how far published sets are apart
+  spectrel f0 gold silver --format mtlx > metals.mtlx
   spectrel f0 --check table.csv                      whose data a table was made from
   spectrel f0 --match '#ffd891'                      which metals look like this
   spectrel f0 silver --illuminant A --space acescg --adapt none";
@@ -68,6 +70,8 @@ enum FormatName {
     Json,
     Toml,
     Html,
+    Gltf,
+    Mtlx,
 }
 
 impl From<FormatName> for Format {
@@ -79,6 +83,8 @@ impl From<FormatName> for Format {
             FormatName::Json => Self::Json,
             FormatName::Toml => Self::Toml,
             FormatName::Html => Self::Html,
+            FormatName::Gltf => Self::Gltf,
+            FormatName::Mtlx => Self::MaterialX,
         }
     }
 }

@@ -17,7 +17,7 @@ pub fn table(args: &F0Args, library: &Library, instrument: &Instrument) -> Resul
     let families = families(library, instrument)?;
     let member = |subject: &Subject, set: &str| {
         let ior = if set == subject.ior.about.name { subject.ior.clone() } else { library.ior(set, Path::new(""))? };
-        Ok(Subject { ior, ..subject.clone() })
+        Ok(Subject { ior, why: library.why(set), ..subject.clone() })
     };
     let sets = |subject: &Subject| {
         let sets = families.of(&subject.ior.about.name);
@@ -30,16 +30,22 @@ pub fn table(args: &F0Args, library: &Library, instrument: &Instrument) -> Resul
 /// What the table is about.
 fn subjects(args: &F0Args, library: &Library) -> Result<Vec<Subject>, SceneError> {
     if !args.materials.is_empty() {
-        return Ok(args.data.named(&args.materials, library)?.into_iter().map(subject).collect());
+        return Ok(args
+            .data
+            .named(&args.materials, library)?
+            .into_iter()
+            .map(|optics| subject(optics, library))
+            .collect());
     }
     let mut found = of_library(library)?;
     found.retain(|optics| args.all || optics.class == Class::Conductor);
     args.data.replace(&mut found, library)?;
-    Ok(found.into_iter().map(subject).collect())
+    Ok(found.into_iter().map(|optics| subject(optics, library)).collect())
 }
 
-fn subject(optics: Optics) -> Subject {
-    Subject { name: optics.name, conductor: optics.class == Class::Conductor, ior: optics.ior }
+fn subject(optics: Optics, library: &Library) -> Subject {
+    let why = library.why(&optics.ior.about.name);
+    Subject { name: optics.name, conductor: optics.class == Class::Conductor, ior: optics.ior, why }
 }
 
 /// Every material that has an index of refraction.

@@ -34,6 +34,9 @@ pub struct Claim {
     pub material: String,
     pub rgb: [f64; 3],
     pub encoding: Encoding,
+    /// Whether the table does not state the encoding.
+    #[serde(rename = "encoding_assumed")]
+    pub assumed: bool,
     /// Its line in the file.
     pub line: u64,
 }

@@ -1,8 +1,8 @@
 //! Reading someone else's table: CSV with a row for each material.
 //!
 //! The first line that is no comment names the columns; case, order and further columns do not matter:
-//! `material` (or `name`, `metal`), `r`, `g`, `b` (or `red`, `green`, `blue`), `encoding` (or `space`, `curve`), and, if there is one, `table`
-//! (or `source`, `engine`).
+//! `material` (or `name`, `metal`), `r`, `g`, `b` (or `red`, `green`, `blue`), and, if there are any, `encoding` (or `space`, `curve`) and
+//! `table` (or `source`, `engine`). Numbers of no stated encoding are taken for linear, which the verdict says.
 
 use super::check::{Claim, Encoding};
 use crate::report::table::{Table, TableError, number};
@@ -38,14 +38,14 @@ pub fn read(text: &[u8]) -> Result<Vec<Claim>, TableError> {
 struct Columns {
     material: usize,
     rgb: [usize; 3],
-    encoding: usize,
+    encoding: Option<usize>,
     table: Option<usize>,
 }
 
 impl Columns {
     fn of(table: &Table) -> Result<Self, TableError> {
-        let [material, r, g, b, encoding] = table.columns([MATERIAL, RED, GREEN, BLUE, ENCODING])?;
-        Ok(Self { material, rgb: [r, g, b], encoding, table: table.column(TABLE) })
+        let [material, r, g, b] = table.columns([MATERIAL, RED, GREEN, BLUE])?;
+        Ok(Self { material, rgb: [r, g, b], encoding: table.column(ENCODING), table: table.column(TABLE) })
     }
 
     fn claim(&self, record: &StringRecord, line: u64) -> Result<Claim, String> {
@@ -54,11 +54,13 @@ impl Columns {
         if material.is_empty() {
             return Err("`material` is empty".into());
         }
+        let stated = self.encoding.map(|column| &record[column]).filter(|text| !text.is_empty());
         Ok(Claim {
             table: self.table.map(|column| record[column].to_owned()).filter(|table| !table.is_empty()),
             material,
             rgb: [channel("r", &record[r])?, channel("g", &record[g])?, channel("b", &record[b])?],
-            encoding: encoding(&record[self.encoding])?,
+            encoding: stated.map_or(Ok(Encoding::Linear), encoding)?,
+            assumed: stated.is_none(),
             line,
         })
     }
@@ -98,15 +100,20 @@ mod tests {
             material: "Gold".into(),
             rgb: [1.0, 0.85, 0.57],
             encoding: Encoding::Encoded,
+            assumed: false,
             line: 3,
         };
         assert_eq!(claims, [claim]);
         assert_eq!(read(b"material,r,g,b,encoding\nx,0,0,0,linear\n").unwrap()[0].table, None);
+        for text in ["name,r,g,b\nx,0,0,0\n", "name,r,g,b,encoding\nx,0,0,0,\n"] {
+            let claim = &read(text.as_bytes()).unwrap()[0];
+            assert_eq!((claim.encoding, claim.assumed), (Encoding::Linear, true));
+        }
     }
 
     #[test]
     fn what_is_wrong_is_told_with_its_line() {
-        assert_eq!(error("materiel,r,g\n"), "the table has no column `material` (is it `materiel`?), `b`, `encoding`");
+        assert_eq!(error("materiel,r,g\n"), "the table has no column `material` (is it `materiel`?), `b`");
         assert_eq!(error("material,r,g,b,encoding\n# x\na,1,x,0,linear\n"), "line 3: `g` is \"x\", expected a number");
         assert!(error("material,r,g,b,encoding\na,1,0,200,linear\n").starts_with("line 2: `b` is 200, expected"));
         assert!(error("material,r,g,b,encoding\na,1,0,nan,linear\n").starts_with("line 2: `b` is nan, expected"));

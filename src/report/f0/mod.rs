@@ -17,7 +17,7 @@
 //! let library = Library::default();
 //! let instrument = Instrument::new(Conditions::default(), &library)?;
 //! let ior = library.ior("Au/olmon-2012-evaporated", Path::new(""))?;
-//! let table = Table::new(&[Subject { name: "gold".into(), conductor: true, ior }], &instrument);
+//! let table = Table::new(&[Subject { name: "gold".into(), conductor: true, ior, why: None }], &instrument);
 //! assert!((table.materials[0].f0.linear[0] - 1.0428).abs() < 5e-5);
 //! println!("{}", formats::text(&table, formats::Format::Markdown)?);
 //! # Ok::<(), Box<dyn std::error::Error>>(())

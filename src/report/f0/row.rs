@@ -24,6 +24,8 @@ pub struct Subject {
     /// Whether what enters is lost; otherwise it goes on.
     pub conductor: bool,
     pub ior: Arc<Ior>,
+    /// Why this data set was chosen, where that is known.
+    pub why: Option<String>,
 }
 
 /// A row of an F0 table.
@@ -73,11 +75,13 @@ pub struct Provenance {
     pub range_nm: Option<(f64, f64)>,
     /// Whether less than 0.1 % of what the eye sees lies outside of it, where ends are held or a formula is extrapolated.
     pub covers_visible: bool,
+    /// Why this set stands for its material, where that was a choice.
+    pub why: Option<String>,
 }
 
 impl Row {
     pub fn new(subject: &Subject, instrument: &Instrument) -> Self {
-        let Subject { name, conductor, ior } = subject;
+        let Subject { name, conductor, ior, why } = subject;
         let curves: Vec<Curve> = instrument.wavelengths_nm().map(|nm| Curve::new(ior.at(nm))).collect();
         let color = |pick: fn(&Curve) -> f64| instrument.color(instrument.rgb(curves.iter().map(pick)));
         let (f0, f_mu17) = (color(|curve| curve.f0), color(|curve| curve.f_mu17));
@@ -97,7 +101,7 @@ impl Row {
             f_avg: color(|curve| curve.f_avg),
             luminance,
             specular,
-            source: Provenance::new(&ior.about, instrument),
+            source: Provenance::new(&ior.about, why.clone(), instrument),
         }
     }
 }
@@ -130,7 +134,7 @@ impl Specular {
 }
 
 impl Provenance {
-    fn new(about: &About, instrument: &Instrument) -> Self {
+    fn new(about: &About, why: Option<String>, instrument: &Instrument) -> Self {
         let About { source, sample, range_nm, .. } = about.clone();
         Self {
             title: source.title,
@@ -142,6 +146,7 @@ impl Provenance {
             confidence: sample.confidence.to_string(),
             covers_visible: instrument.share_outside(range_nm) <= UNCOVERED,
             range_nm,
+            why,
         }
     }
 }

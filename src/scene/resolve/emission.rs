@@ -145,8 +145,7 @@ impl Resolver<'_> {
     ) -> Result<(Spectrum, bool), SceneError> {
         let own = match source {
             LightSpectrum::Name(name) => {
-                let found =
-                    self.library.illuminant(name, self.text.base()).map_err(|error| self.text.error(span, error))?;
+                let found = self.library.light(name, self.text.base()).map_err(|error| self.text.error(span, error))?;
                 self.note_data(used_by, &found.about);
                 return Ok((found.spectrum.clone(), false));
             }

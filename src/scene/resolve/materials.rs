@@ -8,7 +8,8 @@ use crate::scene::numbers::short;
 use crate::scene::{Interface, Medium, MediumId, Pattern, RgbColors, SceneError, Surface, Text};
 use crate::spectrum::visible_nm;
 use crate::spectrum::{
-    Adaptation, Colorimeter, HELIUM_D_NM, Ior, RgbSpace, Spectrum, SpectrumError, Upsampler, nearest, srgb_primaries,
+    Adaptation, Colorimeter, HELIUM_D_NM, Ior, Library, RgbSpace, Spectrum, SpectrumError, Upsampler, nearest,
+    srgb_primaries,
 };
 use std::fmt::Display;
 use std::ops::{Range, RangeInclusive};
@@ -92,6 +93,11 @@ impl Resolver<'_> {
 
     fn unknown_material(&self, name: &Spanned<String>, error: SpectrumError) -> SceneError {
         let (asked, wanted) = (name.get_ref(), self.substitutes.material(name.get_ref()));
+        if Library::is_file_name(wanted) || self.text.base().join(wanted).is_file() {
+            let message = format!("`{wanted}` is a file: no material, but data that one can name");
+            let help = format!("write a material: [materials.mine.conductor] (or dielectric) with ior = \"{wanted}\"");
+            return self.text.error(&name.span(), message).help(help);
+        }
         let error = match error {
             SpectrumError::UnknownMaterial { name, suggestion } => {
                 let known = self.own_materials.keys().map(String::as_str).chain(suggestion.as_deref());
@@ -207,6 +213,11 @@ impl Resolver<'_> {
                 found
             }
             &IndexSource::Constant { n, k } => Arc::new(Ior::constant(&described.name, n, k)),
+            IndexSource::Own(own) => {
+                let ior = own.ior(&described.name).map_err(|fault| error(&fault))?;
+                self.note_data(&described.name, &ior.about);
+                Arc::new(ior)
+            }
         };
         match index_fault(&ior) {
             Some(fault) => Err(error(&fault)),

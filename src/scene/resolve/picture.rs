@@ -20,7 +20,7 @@ impl Resolver<'_> {
         let white = if white_balance == "scene" {
             self.strongest_light()
         } else {
-            let found = self.library.illuminant(&white_balance, self.text.base());
+            let found = self.library.light(&white_balance, self.text.base());
             found.map_err(|error| self.text.error(&span, error))?.spectrum.clone()
         };
         let white = white_xyz(&white, &observer).map_err(|error| self.text.error(&span, error))?;

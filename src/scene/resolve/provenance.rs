@@ -22,6 +22,9 @@ impl Resolver<'_> {
         if !self.noted.insert((used_by.to_owned(), about.name.clone())) {
             return;
         }
+        for note in &about.notes {
+            self.warnings.push(format!("`{}` ({used_by}): {note}", about.name));
+        }
         let missing = about.range_nm.map_or(0.0, |range| share_outside(&self.observer_1931, range));
         if let (true, Some((first, last))) = (missing > UNCOVERED, about.range_nm) {
             self.warnings.push(format!(

@@ -179,7 +179,11 @@ fn source(row: &Row) -> String {
     if let (false, Some((first, last))) = (source.covers_visible, source.range_nm) {
         text += &format!("; <strong>covers {first}–{last} nm only</strong>");
     }
-    text + "."
+    text += ".";
+    if let Some(why) = &source.why {
+        text += &format!(" Chosen because: {}.", escape(why));
+    }
+    text
 }
 
 /// A hex colour is shown too.

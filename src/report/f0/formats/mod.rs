@@ -1,11 +1,13 @@
 //! Reports as text: for a terminal, for documents, for programs, for a browser.
 
+mod assets;
 mod html;
 mod rows;
 mod verdicts;
 
 pub use html::Page;
 
+use super::Table;
 use crate::report::{Grid, markup};
 use serde::Serialize;
 
@@ -23,6 +25,10 @@ pub enum Format {
     Toml,
     /// One page that needs no other file.
     Html,
+    /// A glTF scene with a sphere of each material.
+    Gltf,
+    /// A MaterialX document of `open_pbr_surface`.
+    MaterialX,
 }
 
 /// What can be told in every format.
@@ -34,6 +40,10 @@ pub trait Report: Serialize {
     /// What has to be said below the table.
     fn notes(&self) -> Vec<String>;
     fn page(&self) -> Page;
+    /// The materials, if it is about materials.
+    fn materials(&self) -> Option<&Table> {
+        None
+    }
 }
 
 /// Why a report could not be written.
@@ -45,6 +55,8 @@ pub enum FormatError {
     Toml(#[from] toml::ser::Error),
     #[error("CSV: {0}")]
     Csv(#[from] csv::Error),
+    #[error("a verdict is no material: only tables of materials are written as glTF and MaterialX")]
+    NoMaterials,
 }
 
 /// A report in a format, without a newline at its end.
@@ -59,6 +71,8 @@ pub fn text(report: &impl Report, format: Format) -> Result<String, FormatError>
         Format::Json => markup::json(report)?,
         Format::Toml => toml::to_string(report)?,
         Format::Html => report.page().html(),
+        Format::Gltf => assets::gltf(report.materials().ok_or(FormatError::NoMaterials)?)?,
+        Format::MaterialX => assets::materialx(report.materials().ok_or(FormatError::NoMaterials)?),
     };
     Ok(text.trim_end().to_owned())
 }

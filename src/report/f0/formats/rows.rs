@@ -47,17 +47,29 @@ impl Report for Table {
             notes.push("‡ of low confidence, or modelled: better data are not public".into());
         }
         notes.extend(self.spread.iter().map(super::super::Spread::sentence));
+        // Of a few materials; the other formats say it of all.
+        if self.materials.len() <= WHY_OF {
+            notes.extend(
+                self.materials.iter().filter_map(|row| {
+                    row.source.why.as_ref().map(|why| format!("{}: why {}: {why}", row.name, row.ior))
+                }),
+            );
+        }
         notes
     }
 
     fn page(&self) -> Page {
         super::html::table(self)
     }
+
+    fn materials(&self) -> Option<&Table> {
+        Some(self)
+    }
 }
 
 const KEY: &str = "Red, Green, Blue: linear F0. Tint: F(cos θ = 1/7) against Schlick's, the specular_color of OpenPBR. \
 n_d, k_d: at 587.56 nm";
-const MORE: &str = "More columns (82°, 1/7, F_avg, encoded values, engines, DOI): --format csv, json, toml or html";
+const MORE: &str = "More columns (82°, 1/7, F_avg, encoded values, engines, DOI): --format csv, json, toml or html; files to load: gltf, mtlx";
 
 impl Table {
     fn has_hex(&self) -> bool {
@@ -92,6 +104,9 @@ impl Table {
 fn small(value: f64) -> String {
     if value < 1e-4 { format!("{value:.1e}") } else { format!("{value:.BRIEF$}") }
 }
+
+/// Of how many materials the brief table says why their data were chosen.
+const WHY_OF: usize = 8;
 
 type Column = (String, Box<dyn Fn(&Row) -> String>);
 
@@ -191,5 +206,6 @@ fn source() -> Vec<Column> {
         column("range_first_nm", |row| optional(row.source.range_nm, |(first, _)| first.to_string())),
         column("range_last_nm", |row| optional(row.source.range_nm, |(_, last)| last.to_string())),
         column("covers_visible", |row| row.source.covers_visible.to_string()),
+        column("why", |row| row.source.why.clone().unwrap_or_default()),
     ]
 }

@@ -64,17 +64,25 @@ impl Report for Checked {
     }
 
     fn notes(&self) -> Vec<String> {
-        [vec![self.conditions.sentence(), limits()], self.findings()].concat()
+        [vec![self.conditions.sentence(), limits()], self.assumption(), self.findings()].concat()
     }
 
     fn page(&self) -> Page {
-        let paragraphs = vec![self.conditions.sentence() + ".", limits() + "."];
+        let mut paragraphs = vec![self.conditions.sentence() + ".", limits() + "."];
+        paragraphs.extend(self.assumption());
         Page::of_grid("A table of colours against measured data", paragraphs, &self.brief())
             .with_list("What does not match as stated", &self.findings())
     }
 }
 
 impl Checked {
+    /// What was taken for granted.
+    fn assumption(&self) -> Vec<String> {
+        let assumed = self.rows.iter().any(|row| row.claim.assumed);
+        let says = "No encoding is stated: the numbers are taken for linear, and what matches as sRGB only is called mis-encoded";
+        assumed.then(|| says.to_owned()).into_iter().collect()
+    }
+
     fn findings(&self) -> Vec<String> {
         self.rows.iter().filter(|row| row.outcome != Outcome::Match).map(Verdict::sentence).collect()
     }
