@@ -1,13 +1,15 @@
 //! Files of others: read whole, and made text whatever their encoding.
 //!
-//! Spreadsheets, instruments and modellers write UTF-8 with or without a mark, UTF-16, or one byte a letter, and end lines
-//! by LF, CR LF or CR. All of it becomes UTF-8 with LF, so that whatever parses it, and whoever counts lines, knows one form.
+//! Spreadsheets, instruments and modellers write UTF-8 with or without a mark, UTF-16, or one byte
+//! a letter, and end lines by LF, CR LF or CR. All of it becomes UTF-8 with LF, so that whatever
+//! parses it, and whoever counts lines, knows one form.
 
 use std::borrow::Cow;
 use std::io;
 use std::path::Path;
 
-/// Reads a file. What is no regular file is refused: a pipe that nobody writes to would be waited for without end.
+/// Reads a file. What is no regular file is refused: a pipe that nobody writes to would be waited
+/// for without end.
 pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     let kind = std::fs::metadata(path)?;
     match (kind.is_file(), kind.is_dir()) {
@@ -17,11 +19,12 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     }
 }
 
-/// Returns the text that bytes stand for, with LF at the ends of lines and without a byte order mark; `None` for what is
-/// no text. Text that is UTF-8 with LF already is not copied.
+/// Returns the text that bytes stand for, with LF at the ends of lines and without a byte order
+/// mark; `None` for what is no text. Text that is UTF-8 with LF already is not copied.
 ///
-/// UTF-16 is told by its mark, or by every other byte being 0; what is neither this nor UTF-8 is taken for Latin-1, whose
-/// letters are the first 256 of Unicode: µ, °, ², Å and é come out right, in Windows' and Apple's code pages µ at least.
+/// UTF-16 is told by its mark, or by every other byte being 0; what is neither this nor UTF-8 is
+/// taken for Latin-1, whose letters are the first 256 of Unicode: µ, °, ², Å and é come out right,
+/// in Windows' and Apple's code pages µ at least.
 pub fn decode(bytes: &[u8]) -> Option<Cow<'_, str>> {
     let text = match bytes {
         [0xFF, 0xFE, rest @ ..] => Cow::Owned(utf16(rest, u16::from_le_bytes)?),
@@ -42,7 +45,8 @@ fn utf16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Option<String> {
 /// How many bytes are looked at to tell UTF-16 without a mark.
 const LOOKED_AT: usize = 64;
 
-/// Whether each first or second byte of the first pairs is 0 and the other is not: the Latin letters of UTF-16.
+/// Whether each first or second byte of the first pairs is 0 and the other is not: the Latin
+/// letters of UTF-16.
 fn every_other_is_zero(bytes: &[u8], zero: usize) -> bool {
     let (pairs, _) = bytes.get(..bytes.len().min(LOOKED_AT)).unwrap_or_default().as_chunks::<2>();
     !pairs.is_empty() && pairs.iter().all(|pair| pair[zero] == 0 && pair[1 - zero] != 0)

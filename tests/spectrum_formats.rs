@@ -178,8 +178,8 @@ fn noise_is_set_right_and_told() {
         [
             "1 row outside 360–830 nm passed over: n is -6.2 at 200 nm",
             "1 row outside 360–830 nm passed over: 890 nm follows 900 nm",
-            "k is -0.00000037 at 400 nm: noise, taken for 0",
-            "500 nm stands there 2 times: the values agree and are averaged",
+            "k is -3.7e-7 at 400 nm: noise, taken for 0",
+            "two values at 500 nm: they agree and are averaged",
         ]
     );
     let base = folder.write("r.csv", "wavelength_nm,r\n400,1.01\n500,-0.001\n");
@@ -229,6 +229,20 @@ fn glass_catalogues_and_lamps_are_read() {
     let lamp = "<IESTM2714><SpectralDistribution><SpectralData wavelength='400'>1</SpectralData><SpectralData wavelength='500'>2</SpectralData></SpectralDistribution></IESTM2714>";
     let base = folder.write("lamp.spdx", lamp);
     assert_eq!(library.illuminant("lamp.spdx", base).unwrap().spectrum.at(450.0), 1.5);
+}
+
+#[test]
+fn a_sample_of_a_chart_is_a_reflectance() {
+    let chart = "CTI3\nBEGIN_DATA_FORMAT\nSAMPLE_ID NM_400 NM_500\nEND_DATA_FORMAT\nBEGIN_DATA\nA1 0.1 0.3\nA2 0.5 0.5\nEND_DATA\n";
+    let folder = Folder::new();
+    let library = Library::new(Vec::new());
+    for name in ["chart.ti3", "chart.txt"] {
+        let base = folder.write(name, chart);
+        let sample = library.reflectance(&format!("{name}#A1"), base).unwrap_or_else(|error| panic!("{error}"));
+        assert!((sample.spectrum.at(450.0) - 0.2).abs() < 1e-15);
+    }
+    let says = message(&folder, library.reflectance("chart.ti3", folder.0.path()).map(drop));
+    assert_eq!(says, "chart.ti3: 2 samples: name one, as `chart.ti3#A1`");
 }
 
 #[test]

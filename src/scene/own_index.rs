@@ -1,15 +1,17 @@
-//! An index of refraction that a material's file gives by itself: by numbers of a catalogue, a formula or a table.
+//! An index of refraction that a material's file gives by itself: by numbers of a catalogue, a
+//! formula or a table.
 
 use super::numbers::{Exactly, Finite};
 use crate::spectrum::{About, Confidence, Formula, FormulaType, HELIUM_D_NM, Ior, Outside, Sample, Spectrum, Table};
 use serde::Deserialize;
 
-/// An index of refraction by its own numbers: one of `n` (with `k`), `n_d` with `abbe`, `cauchy`, `sellmeier` and `table`.
+/// An index of refraction by its own numbers: one of `n` (with `k`), `n_d` with `abbe`, `cauchy`,
+/// `sellmeier` and `table`.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct OwnIndex {
-    /// The same at all wavelengths; or three for red, green and blue, which is approximate: they are taken for 650, 550 and
-    /// 450 nm, with straight lines between.
+    /// The same at all wavelengths; or three for red, green and blue, which is approximate: they
+    /// are taken for 650, 550 and 450 nm, with straight lines between.
     pub n: Option<OneOrThree>,
     /// Beside `n`; 0 unless given.
     pub k: Option<OneOrThree>,

@@ -1,7 +1,8 @@
-//! What a column says about absorption: a coefficient, absorbance, transmittance or k, made m⁻¹ of natural base.
+//! What a column says about absorption: a coefficient, absorbance, transmittance or k, made m⁻¹ of
+//! natural base.
 //!
-//! α = A ln 10 / d of a decadic absorbance A, α = −ln T / d of an internal transmittance T, through a thickness d
-//! (Beer and Lambert); α = 4πk/λ of an extinction coefficient.
+//! α = A ln 10 / d of a decadic absorbance A, α = −ln T / d of an internal transmittance T, through
+//! a thickness d (Beer and Lambert); α = 4πk/λ of an extinction coefficient.
 
 use super::columns::{Column, Columns};
 use super::error::Fault;

@@ -7,8 +7,9 @@
 //! IT wavelength transmittance mm     internal, through so many mm
 //! ```
 //!
-//! Each of the thirteen formulas is one of ours with its coefficients in another order. Glass is told by its name, as
-//! `SCHOTT.AGF#N-BK7`. Indices are relative to air, as in every catalogue, and are used as printed.
+//! Each of the thirteen formulas is one of ours with its coefficients in another order. Glass is
+//! told by its name, as `SCHOTT.AGF#N-BK7`. Indices are relative to air, as in every catalogue, and
+//! are used as printed.
 
 use super::absorbing::k_of_transmittance;
 use super::curve::common_range;

@@ -1,7 +1,9 @@
-//! A text file as columns of measured values over wavelengths in nm: its header, its units, its rows.
+//! A text file as columns of measured values over wavelengths in nm: its header, its units, its
+//! rows.
 //!
-//! A header is a row of words, perhaps with a row of units below it, or the last comment before the numbers; titles above are
-//! passed over. A second header further down starts a second table, as in the files that refractiveindex.info exports.
+//! A header is a row of words, perhaps with a row of units below it, or the last comment before the
+//! numbers; titles above are passed over. A second header further down starts a second table, as in
+//! the files that refractiveindex.info exports.
 
 use super::error::Fault;
 use super::noise::note_likely_um;
@@ -57,7 +59,8 @@ impl<'a> Columns<'a> {
         for (number, block) in blocks.iter().enumerate() {
             let count = block.data.first().map_or(0, |row| row.len());
             let first = block.data.first().and_then(|row| row.first()).map_or(0, |word| word.offset);
-            // Words of a comment count as a header where there is no other and they name each column.
+            // Words of a comment count as a header where there is no other and they name each
+            // column.
             let comment = read.comments.iter().rfind(|comment| comment.offset < first).copied();
             let comment = comment.map(|line| separator.words(line.text, line.offset)).unwrap_or_default();
             let header = match Header::of(&block.head, count) {
@@ -191,7 +194,8 @@ impl<'a> Block<'a> {
         read: &mut Columns,
     ) -> Result<(), Fault> {
         match (stated, nm.first()) {
-            // Nobody's table starts beyond 100 µm: these are nm under a header that says µm, or `wl` which is µm by custom.
+            // Nobody's table starts beyond 100 µm: these are nm under a header that says µm, or
+            // `wl` which is µm by custom.
             (Some(WaveUnit::Micrometre), Some(first)) if first.value > 1e5 => {
                 let message =
                     format!("a wavelength of {} µm; if it is in nm, say `wavelength_nm`", first.value / 1000.0);

@@ -13,11 +13,11 @@ use serde::Deserialize;
 
 use super::curve::common_range;
 use super::error::Fault;
-use super::format::{Format, file_of, glass, text_of};
+use super::format::{Format, file_of, part_of, text_of};
 use super::toml_file::{self, Loaded};
 use super::{
-    About, ColorMatching, Dataset, Daylight, Ior, Observer, Quantity, Spectrum, SpectrumError, agf_file, nearest,
-    rii_page, spdx_file, table_file,
+    About, ColorMatching, Dataset, Daylight, Ior, Observer, Quantity, Spectrum, SpectrumError, agf_file, cgats_file,
+    nearest, rii_page, spdx_file, table_file,
 };
 
 static SPECTRA: Dir = include_dir!("$CARGO_MANIFEST_DIR/spectra");
@@ -60,8 +60,9 @@ impl Library {
                 _ => Err(not_a("an index of refraction")),
             },
             Format::Yaml => rii_page::read(text, name),
-            Format::Agf => agf_file::read(text, name, glass(name).map(|(_, glass)| glass)),
+            Format::Agf => agf_file::read(text, name, part_of(name)),
             Format::Spdx => Err(not_a("an index of refraction: this format holds lights and reflectances")),
+            Format::Cgats => Err(not_a("an index of refraction: this format holds reflectances")),
             Format::Columns => {
                 let (n, k, about) = table_file::read_ior(text, name)?;
                 let range_nm = [n.range_nm(), k.range_nm()].into_iter().flatten().reduce(common_range);
@@ -181,11 +182,15 @@ impl Library {
                     Loaded::Curve(dataset) => return Ok(dataset),
                     _ => return Err(not_a(quantity.as_str())),
                 },
+                Format::Columns | Format::Cgats if quantity == Quantity::Reflectance && cgats_file::is_cgats(text) => {
+                    cgats_file::read(text, name, part_of(name))?
+                }
+                Format::Cgats => return Err(not_a(&format!("a {quantity}: of charts, reflectances are read"))),
                 Format::Columns => table_file::read_curve(text, name, quantity)?,
                 Format::Spdx if quantity != Quantity::Absorption => spdx_file::read(text, name, quantity)?,
                 Format::Spdx => return Err(not_a("an absorption: this format holds lights and reflectances")),
                 Format::Agf if quantity == Quantity::Absorption => {
-                    let ior = agf_file::read(text, name, glass(name).map(|(_, glass)| glass))?;
+                    let ior = agf_file::read(text, name, part_of(name))?;
                     return Ok(Dataset { spectrum: ior.k.absorption_from_k(), about: ior.about });
                 }
                 Format::Agf => return Err(not_a(&format!("a {quantity} but a glass catalogue"))),

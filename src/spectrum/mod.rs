@@ -2,7 +2,7 @@
 //!
 //! - `curve`: [`Spectrum`], the closed set of functions; `table`, `formula`, `emission`, `bands`, `sigmoid` are its kinds.
 //! - `library`: [`Library`], data sets and materials by name, built in or from a user's folders; `toml_file`,
-//!   `rii_page`, `table_file`, `agf_file`, `spdx_file` read the formats; `about` is the provenance that comes along. Text of columns passes
+//!   `rii_page`, `table_file`, `agf_file`, `cgats_file`, `spdx_file` read the formats; `about` is the provenance that comes along. Text of columns passes
 //!   through `words`, `rows`, `wave_unit` and `columns`; `absorbing` knows what states an absorption, `noise` what is passed over.
 //! - `integrate`: exact integrals of products of spectra; `observer`: the CIE observers.
 //! - `density`: how densely wavelengths are chosen; `nodes`: those that the renderer uses, and how they sample an integral;
@@ -20,6 +20,7 @@ mod agf_file;
 mod arena;
 mod bands;
 mod bins;
+mod cgats_file;
 mod color;
 mod colorimeter;
 mod columns;

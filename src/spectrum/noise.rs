@@ -1,7 +1,8 @@
 //! Noise in measured points: what is set right or passed over with a note, and what is refused.
 //!
-//! Data of others have rows out of order, wavelengths twice, and values a hair beyond what is possible. Outside the visible
-//! no picture depends on such a row, so it is passed over; inside, only what is surely noise is set right.
+//! Data of others have rows out of order, wavelengths twice, and values a hair beyond what is
+//! possible. Outside the visible no picture depends on such a row, so it is passed over; inside,
+//! only what is surely noise is set right.
 
 use super::error::Fault;
 use super::table::{Bound, Number};
@@ -22,7 +23,8 @@ pub(super) fn agree(a: f64, b: f64) -> bool {
     a == b || (a - b).abs() <= AGREE * a.abs().max(b.abs())
 }
 
-/// Returns points whose wavelengths increase and whose values are possible, and notes what it took to get there.
+/// Returns points whose wavelengths increase and whose values are possible, and notes what it took
+/// to get there.
 pub(super) fn cleaned(
     mut points: Vec<Point>,
     what: &str,
@@ -86,7 +88,8 @@ fn possible(points: Vec<Point>, what: &str, bound: Bound, notes: &mut Vec<String
     }
     if let Some((Point { nm, value }, possible)) = mended.first() {
         let more = and_more(mended.len());
-        let text = format!("{what} is {} at {} nm{more}: noise, taken for {possible}", value.value, nm.value);
+        let (value, nm) = (shown(value.value), nm.value);
+        let text = format!("{what} is {value} at {nm} nm{more}: noise, taken for {possible}");
         note(notes, text);
     }
     if let Some(first) = left_out.first() {
@@ -104,15 +107,21 @@ fn and_more(count: usize) -> String {
     if count > 1 { format!(" and the like at {} more", count - 1) } else { String::new() }
 }
 
+/// A number of few zeros.
+fn shown(value: f64) -> String {
+    if value.abs() < 1e-4 { format!("{value:e}") } else { value.to_string() }
+}
+
 fn passed_over(count: usize, why: &str) -> String {
     let rows = if count == 1 { "1 row".to_owned() } else { format!("{count} rows") };
     format!("{rows} outside {LAMBDA_MIN_NM}–{LAMBDA_MAX_NM} nm passed over: {why}")
 }
 
-/// Of neighbours at one wavelength, their mean if they agree; outside the visible the first in any case. Others stay, to
-/// be refused.
+/// Of neighbours at one wavelength, their mean if they agree; outside the visible the first in any
+/// case. Others stay, to be refused.
 fn without_twins(points: Vec<Point>, notes: &mut Vec<String>) -> Vec<Point> {
     let mut kept: Vec<Point> = Vec::with_capacity(points.len());
+    let (mut averaged, mut left_out) = (Vec::new(), Vec::new());
     let mut rest = points.as_slice();
     while let Some(first) = rest.first() {
         let count = rest.iter().take_while(|point| point.nm.value == first.nm.value).count();
@@ -122,7 +131,7 @@ fn without_twins(points: Vec<Point>, notes: &mut Vec<String>) -> Vec<Point> {
         if twins.iter().all(|twin| agree(twin.value.value, first.value.value)) {
             let mean = twins.iter().map(|twin| twin.value.value).sum::<f64>() / count as f64;
             if twins.iter().any(|twin| twin.value.value != first.value.value) {
-                note(notes, format!("{nm} nm stands there {count} times: the values agree and are averaged"));
+                averaged.push(nm);
                 kept.push(Point { value: Number { value: mean, ..first.value }, ..*first });
             } else {
                 kept.push(*first);
@@ -130,9 +139,16 @@ fn without_twins(points: Vec<Point>, notes: &mut Vec<String>) -> Vec<Point> {
         } else if is_visible(nm) {
             kept.extend(twins);
         } else {
-            note(notes, passed_over(count - 1, &format!("{nm} nm stands there {count} times")));
+            left_out.extend(std::iter::repeat_n(nm, count - 1));
             kept.push(*first);
         }
+    }
+    if let Some(nm) = averaged.first() {
+        let more = and_more(averaged.len());
+        note(notes, format!("two values at {nm} nm{more}: they agree and are averaged"));
+    }
+    if let Some(nm) = left_out.first() {
+        note(notes, passed_over(left_out.len(), &format!("two values at {nm} nm")));
     }
     kept
 }
@@ -152,7 +168,8 @@ fn in_order(points: Vec<Point>, notes: &mut Vec<String>) -> Result<Vec<Point>, F
     Ok(points.into_iter().zip(keeps).filter(|(_, keep)| *keep).map(|(point, _)| point).collect())
 }
 
-/// Which points make up the longest strictly increasing sequence (patience sorting, Schensted 1961).
+/// Which points make up the longest strictly increasing sequence (patience sorting, Schensted
+/// 1961).
 fn longest_increasing(points: &[Point]) -> Vec<bool> {
     // The last point of the best sequence of each length, and what comes before each point.
     let mut ends: Vec<usize> = Vec::new();
@@ -179,7 +196,10 @@ fn longest_increasing(points: &[Point]) -> Vec<bool> {
 mod tests {
     use super::*;
 
-    fn clean(points: &[(f64, f64)], bound: Bound) -> Result<(Vec<(f64, f64)>, Vec<String>), Fault> {
+    /// What is kept, and the notes.
+    type Cleaned = (Vec<(f64, f64)>, Vec<String>);
+
+    fn clean(points: &[(f64, f64)], bound: Bound) -> Result<Cleaned, Fault> {
         let number = |value, offset| Number { value, offset };
         let points =
             points.iter().enumerate().map(|(i, &(nm, value))| Point { nm: number(nm, i), value: number(value, i) });
@@ -214,7 +234,7 @@ mod tests {
         let points = [(200.0, -3.0), (400.0, -1e-6), (500.0, -1e-9), (600.0, 1.0)];
         let (kept, notes) = clean(&points, Bound::NonNegative).unwrap();
         assert_eq!(kept, [(400.0, 0.0), (500.0, 0.0), (600.0, 1.0)]);
-        assert_eq!(notes[0], "k is -0.000001 at 400 nm and the like at 1 more: noise, taken for 0");
+        assert_eq!(notes[0], "k is -1e-6 at 400 nm and the like at 1 more: noise, taken for 0");
         assert_eq!(notes[1], "1 row outside 360–830 nm passed over: k is -3 at 200 nm");
         let message = clean(&[(400.0, -1.1e-6)], Bound::NonNegative).unwrap_err().message;
         assert!(message.starts_with("k is -0.0000011 at 400 nm, expected a number of 0 or more"), "{message}");
@@ -233,7 +253,7 @@ mod tests {
     fn twins_are_averaged_if_they_agree() {
         let (kept, notes) = clean(&[(400.0, 1.0), (400.0, 1.01), (500.0, 2.0), (500.0, 2.0)], Bound::Any).unwrap();
         assert_eq!(kept, [(400.0, 1.005), (500.0, 2.0)]);
-        assert_eq!(notes, ["400 nm stands there 2 times: the values agree and are averaged"]);
+        assert_eq!(notes, ["two values at 400 nm: they agree and are averaged"]);
         let (kept, notes) = clean(&[(300.0, 1.0), (300.0, 2.0), (500.0, 2.0)], Bound::Any).unwrap();
         assert_eq!((kept, notes.len()), (vec![(300.0, 1.0), (500.0, 2.0)], 1));
         assert!(

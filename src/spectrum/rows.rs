@@ -1,4 +1,5 @@
-//! Text as rows of words: which mark parts the columns, what is a comment, and where each word stands.
+//! Text as rows of words: which mark parts the columns, what is a comment, and where each word
+//! stands.
 
 use super::words::Word;
 
@@ -64,7 +65,8 @@ fn row_end(rest: &str) -> usize {
     }
 }
 
-/// The separator by which most lines are all numbers; without numbers, the first that the first line has.
+/// The separator by which most lines are all numbers; without numbers, the first that the first
+/// line has.
 fn separator(text: &str) -> Separator {
     let numeric = |separator: &Separator| {
         let is_row = |words: &Vec<Word>| words.len() > 1 && words.iter().all(|word| word.is_number());
@@ -103,7 +105,7 @@ impl Separator {
 
 /// The parts of a row between marks that no quotation marks enclose.
 fn parts(row: &str, start: usize, mark: char) -> Vec<Word<'_>> {
-    let quotes = row.matches('"').count() % 2 == 0;
+    let quotes = row.matches('"').count().is_multiple_of(2);
     let (mut words, mut from, mut quoted) = (Vec::new(), 0, false);
     for (at, letter) in row.char_indices() {
         quoted ^= quotes && letter == '"';
@@ -131,7 +133,8 @@ impl Word<'_> {
     }
 }
 
-/// Words between blanks; what stands in brackets belongs to the word before: `Wavelength (nm)` is one.
+/// Words between blanks; what stands in brackets belongs to the word before: `Wavelength (nm)` is
+/// one.
 fn blank_separated(row: &str, start: usize) -> Vec<Word<'_>> {
     let mut spans: Vec<(usize, usize)> = Vec::new();
     let mut open = 0_i32;

@@ -1,4 +1,5 @@
-//! A light or a reflectance in the XML of IES TM-27 (`.spdx`): `SpectralData` with its wavelength in nm, in any namespace.
+//! A light or a reflectance in the XML of IES TM-27 (`.spdx`): `SpectralData` with its wavelength
+//! in nm, in any namespace.
 
 use roxmltree::{Document, Node};
 

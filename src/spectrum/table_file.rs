@@ -1,8 +1,10 @@
-//! A table of a user as text: an index, a reflectance, an absorption or a light in two or three columns.
+//! A table of a user as text: an index, a reflectance, an absorption or a light in two or three
+//! columns.
 //!
-//! `wavelength_nm,n,k` or `wavelength_um,n` (an index), `wavelength_nm,value` (a reflectance or a light),
-//! `wavelength_nm,alpha_1/cm` (an absorption; see `absorbing`). How columns are parted, named and ordered is for `rows` and
-//! `columns` to find out; `docs/data-files.md` tells users all of it.
+//! `wavelength_nm,n,k` or `wavelength_um,n` (an index), `wavelength_nm,value` (a reflectance or a
+//! light), `wavelength_nm,alpha_1/cm` (an absorption; see `absorbing`). How columns are parted,
+//! named and ordered is for `rows` and `columns` to find out; `docs/data-files.md` tells users all
+//! of it.
 
 use super::absorbing::{as_share, coefficient};
 use super::columns::{Column, Columns};

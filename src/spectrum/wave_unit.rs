@@ -1,4 +1,5 @@
-//! In which unit the wavelengths of a file are: stated, or told by the numbers where they leave no doubt.
+//! In which unit the wavelengths of a file are: stated, or told by the numbers where they leave no
+//! doubt.
 
 use super::error::Fault;
 use super::table::Number;
@@ -55,7 +56,8 @@ impl WaveUnit {
         }
         let words: Vec<&str> = name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
         let states = |units: &[&str]| words.iter().any(|word| units.contains(word));
-        // Both signs for micro: U+00B5 and the Greek letter, which is what lower case makes of either.
+        // Both signs for micro: U+00B5 and the Greek letter, which is what lower case makes of
+        // either.
         let micro = words.iter().any(|word| word.ends_with("µm") || word.ends_with("μm"));
         match () {
             () if states(&["nm", "nanometre", "nanometer", "nanometres", "nanometers"]) => Some(Self::Nanometre),

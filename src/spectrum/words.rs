@@ -17,7 +17,8 @@ impl<'a> Word<'a> {
         self.scaled(0)
     }
 
-    /// The number times a power of ten: 0.0517 µm become 51.7 nm and not 51.699999999999996, by moving the decimal point.
+    /// The number times a power of ten: 0.0517 µm become 51.7 nm and not 51.699999999999996, by
+    /// moving the decimal point.
     pub fn scaled(self, power: i32) -> Result<Number, Fault> {
         let plain = self.with_point();
         let value: f64 = plain.parse().map_err(|_| self.no_number())?;

@@ -1,7 +1,9 @@
-//! Materials as files that other programs load: a glTF scene with a sphere of each, and a MaterialX document.
+//! Materials as files that other programs load: a glTF scene with a sphere of each, and a MaterialX
+//! document.
 //!
-//! Both hold the parameters that [`Engines`](crate::report::f0::Engines) defines; surfaces are smooth, and clear solids let
-//! light through. glTF has no word for a metal's tint at grazing angles, so `specular_color` is in MaterialX alone.
+//! Both hold the parameters that [`Engines`](crate::report::f0::Engines) defines; surfaces are
+//! smooth, and clear solids let light through. glTF has no word for a metal's tint at grazing
+//! angles, so `specular_color` is in MaterialX alone.
 
 use crate::report::f0::{Row, Table};
 use crate::report::markup;
@@ -133,7 +135,8 @@ fn material(row: &Row, name: &str) -> Value {
     material
 }
 
-/// Number of points, of corners of triangles, and both as bytes: the points of a unit sphere are its normals too.
+/// Number of points, of corners of triangles, and both as bytes: the points of a unit sphere are
+/// its normals too.
 fn sphere() -> (usize, usize, Vec<u8>) {
     let mut bytes = Vec::new();
     for down in 0..=DOWN {
