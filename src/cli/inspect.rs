@@ -10,6 +10,7 @@ use crate::scene::{
 };
 use crate::spectrum::{About, citation};
 use clap::Args;
+use glam::DVec3;
 use serde::Serialize;
 
 #[derive(Debug, Args)]
@@ -48,6 +49,51 @@ struct ObjectReport {
     shape: String,
     material: String,
     kind: String,
+    /// Of a mesh.
+    extent: Option<Extent>,
+}
+
+/// The box around a mesh, as the scene has it.
+#[derive(Clone, Copy, Serialize)]
+struct Extent {
+    /// Scene units.
+    size: [f64; 3],
+    center: [f64; 3],
+    /// Where the scene says how long its unit is.
+    size_mm: Option<[f64; 3]>,
+    center_mm: Option<[f64; 3]>,
+}
+
+impl Extent {
+    fn of(shape: &Shape, scene: &Scene) -> Option<Self> {
+        let Shape::Mesh(placed) = shape else { return None };
+        let bounds = placed.bounds();
+        let size = bounds.size().as_dvec3();
+        let center = (bounds.min.as_dvec3() + bounds.max.as_dvec3()) / 2.0 + scene.origin;
+        let mm = scene.meters_per_unit.map(|metres| metres * 1e3);
+        let of = |vector: DVec3| mm.map(|mm| (vector * mm).to_array());
+        let [size_mm, center_mm] = [of(size), of(center)];
+        Some(Self { size: size.to_array(), center: center.to_array(), size_mm, center_mm })
+    }
+
+    fn words(&self) -> String {
+        let place = |size, center| format!("{} at ({})", numbers(size, " × "), numbers(center, ", "));
+        let units = place(self.size, self.center);
+        match (self.size_mm, self.center_mm) {
+            (Some(size), Some(center)) => format!("{units}; in mm {}", place(size, center)),
+            _ => units,
+        }
+    }
+}
+
+/// Five digits; what is small beside the others is none.
+fn numbers(values: [f64; 3], between: &str) -> String {
+    let largest = values.iter().fold(0.0f64, |largest, value| largest.max(value.abs()));
+    let rounded = values.map(|value| {
+        let value = if value.abs() < 1e-6 * largest { 0.0 } else { value };
+        format!("{}", format!("{value:.4e}").parse::<f64>().unwrap_or(value))
+    });
+    rounded.join(between)
 }
 
 #[derive(Serialize)]
@@ -82,6 +128,7 @@ fn report(scene: &Scene) -> Report {
             Some(pattern) => format!("{}, by {}", surface_kind(&surface(object)), pattern.files.join(" and ")),
             None => surface_kind(&surface(object)),
         },
+        extent: Extent::of(shape, scene),
     });
     Report {
         width: scene.settings.width,
@@ -130,6 +177,7 @@ fn shape_kind(shape: &Shape) -> String {
 fn mesh_kind(mesh: &Mesh) -> String {
     let triangles = mesh.triangles().indices.len();
     match mesh.surroundings().open_edges {
+        0 if !mesh.surroundings().is_solid() => format!("mesh of {triangles} triangles that enclose nothing"),
         0 => format!("closed mesh of {triangles} triangles"),
         open => format!("mesh of {triangles} triangles, {open} open edges"),
     }
@@ -156,13 +204,22 @@ fn text(report: &Report) -> String {
     let mut parts = vec![
         show::section("Picture", &show::columns(&picture_rows(report))),
         show::section(count, &show::columns(&objects.collect::<Vec<_>>())),
+        meshes(report),
         show::section("Physics", &show::columns(&physics.collect::<Vec<_>>())),
         show::section("Data", &show::columns(&report.data.iter().map(data_row).collect::<Vec<_>>())),
     ];
+    parts.retain(|part| !part.is_empty());
     if !report.warnings.is_empty() {
         parts.push(show::section("Warnings", &report.warnings.join("\n")));
     }
     parts.join("\n\n")
+}
+
+/// Size and place of each mesh.
+fn meshes(report: &Report) -> String {
+    let row = |object: &ObjectReport| Some([object.name.clone(), object.extent?.words()]);
+    let rows: Vec<[String; 2]> = report.objects.iter().filter_map(row).collect();
+    if rows.is_empty() { String::new() } else { show::section("Meshes, scene units", &show::columns(&rows)) }
 }
 
 fn picture_rows(report: &Report) -> Vec<[String; 2]> {

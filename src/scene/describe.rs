@@ -485,7 +485,11 @@ pub struct StepCut {
 }
 
 /// Triangles from an OBJ, PLY, STL or glTF file. If they are closed, they are a solid. Without a material of the object each part
-/// has the one that `[replace]` gives for its material in the file, or else the one that the file names.
+/// has the one that `[replace]` gives for its material in the file, or else the one that the file names. Parts of one clear
+/// material that have open edges in common are one body, and so are clear and opaque parts that close it together: the opaque ones
+/// lie on it. Of clear bodies faces that are there twice are dropped, windings are made to agree and hairline gaps are closed, each
+/// with a warning. A glTF file is in metres: where the scene states `meters_per_unit`, its lengths, cameras included, become the
+/// scene's units. Lengths of the other formats are scene units unless `unit` is given.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MeshFile {
@@ -495,6 +499,60 @@ pub struct MeshFile {
     pub part: Option<Spanned<String>>,
     /// Smooths edges that bend by less than this, in degrees: 0 shows every triangle flat. The file's own normals unless given.
     pub crease_angle: Option<Number>,
+    /// The unit of the file's lengths; a glTF file's is the metre, another's the scene's unless given. Needs `meters_per_unit`.
+    pub unit: Option<Spanned<UnitName>>,
+    /// The axis that is up in the file and becomes the scene's z, as (x, −z, y) of its (x, y, z); `"y"` for glTF and `"z"` for the others
+    /// unless given.
+    pub up: Option<UpName>,
+    /// The widest gap between open edges of a clear body that is closed, if that closes the body, as a share of its size; 1e-4
+    /// unless given, 0 leaves gaps.
+    pub weld: Option<Number>,
+}
+
+/// A unit of length.
+#[derive(Clone, Copy, Debug, Deserialize, Serialize, PartialEq, Eq)]
+pub enum UnitName {
+    /// Metre.
+    #[serde(rename = "m")]
+    Metre,
+    /// Centimetre.
+    #[serde(rename = "cm")]
+    Centimetre,
+    /// Millimetre.
+    #[serde(rename = "mm")]
+    Millimetre,
+    /// Micrometre.
+    #[serde(rename = "um")]
+    Micrometre,
+    /// Inch, 25.4 mm.
+    #[serde(rename = "in")]
+    Inch,
+    /// Foot, 304.8 mm.
+    #[serde(rename = "ft")]
+    Foot,
+}
+
+impl UnitName {
+    pub fn metres(self) -> f64 {
+        match self {
+            Self::Metre => 1.0,
+            Self::Centimetre => 0.01,
+            Self::Millimetre => 1e-3,
+            Self::Micrometre => 1e-6,
+            Self::Inch => 0.0254,
+            Self::Foot => 0.3048,
+        }
+    }
+}
+
+/// An axis that is up.
+#[derive(Clone, Copy, Debug, Deserialize, Serialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+pub enum UpName {
+    /// As in glTF, and in OBJ files of many modelling programs.
+    Y,
+    /// As in the scene.
+    Z,
 }
 
 /// Moves an object; applied in this order: scale, rotation about the origin, translation.

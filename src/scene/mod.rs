@@ -28,6 +28,7 @@ use crate::geometry::{Departure, Hit, Ray, ShapeId, World};
 use crate::light::Lights;
 use crate::spectrum::{About, Arena, ColorMatching, Colorimeter, SpectrumId, Tint};
 use crate::texture::Texels;
+use glam::DVec3;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -37,6 +38,10 @@ use std::sync::Arc;
 pub struct Scene {
     pub spectra: Arena,
     pub world: World,
+    /// Where the scene's file has the zero of the world's coordinates.
+    pub origin: DVec3,
+    /// Length of one unit, if the scene says it.
+    pub meters_per_unit: Option<f64>,
     /// By [`ShapeId`].
     pub objects: Vec<Object>,
     /// Of each clear solid on whose faces opaque objects lie, which ones, in their order.

@@ -223,7 +223,7 @@ fn required_extensions() {
     let expected = [
         "the file requires KHR_materials_ior: its materials and pictures are not read",
         "the file requires KHR_texture_transform: its materials and pictures are not read",
-        "the file uses KHR_lights_punctual, which was passed over",
+        "the file uses KHR_lights_punctual, which was passed over: a scene has lights of its own",
     ];
     assert_eq!(file.notes, expected);
 }
@@ -317,4 +317,54 @@ fn mistakes_are_named() {
         error("gltf", "{\n  \"asset\": 3\n}"),
         "mesh.gltf:2: column 12: invalid type: integer `3`, expected struct Asset"
     );
+}
+
+#[test]
+fn instances_stand_where_they_stand_on_paper() {
+    let mut buffer = cube_buffer();
+    let translations = buffer.floats(&[[1.0, 2.0, 3.0], [-4.0, 0.0, 0.0]]);
+    let scales = buffer.floats(&[[1.0, 1.0, 1.0], [2.0, 3.0, 4.0]]);
+    let instancing = json!({ "attributes": { "TRANSLATION": translations, "SCALE": scales } });
+    let nodes = json!([{ "name": "many", "mesh": 0, "translation": [10, 0, 0],
+                         "extensions": { "EXT_mesh_gpu_instancing": instancing } }]);
+    let mut scene = cube_on(nodes);
+    scene["extensionsRequired"] = json!(["EXT_mesh_gpu_instancing"]);
+    let file = loaded("glb", buffer.glb(scene));
+    assert_eq!((file.parts.len(), file.notes.len()), (1, 0), "{:?}", file.notes);
+    let places: Vec<_> = file.placements.iter().map(|p| (p.name.as_str(), p.transform.translation)).collect();
+    assert_eq!(places, [("many", DVec3::new(11.0, -3.0, 2.0)), ("many", DVec3::new(6.0, 0.0, 0.0))]);
+    assert!((volume(&placed(&file)) - 25.0).abs() < 1e-12);
+}
+
+#[test]
+fn lights_that_a_file_requires_are_passed_over() {
+    let mut scene = cube_on(json!([{ "mesh": 0 }]));
+    scene["extensionsRequired"] = json!(["KHR_lights_punctual"]);
+    scene["extensionsUsed"] = json!(["KHR_lights_punctual"]);
+    let file = loaded("glb", cube_buffer().glb(scene));
+    assert_eq!(file.notes, ["the file uses KHR_lights_punctual, which was passed over: a scene has lights of its own"]);
+    assert_eq!(file.parts.len(), 1);
+    for name in ["KHR_draco_mesh_compression", "EXT_meshopt_compression"] {
+        let mut scene = cube_on(json!([{ "mesh": 0 }]));
+        scene["extensionsRequired"] = json!([name]);
+        let expected = format!("mesh.glb: it requires {name}, which spectrel does not support; export it without");
+        assert_eq!(error("glb", cube_buffer().glb(scene)), expected);
+    }
+}
+
+#[test]
+fn matrices_may_be_rounded() {
+    let node = |last: f64| json!([{ "mesh": 0, "matrix": [1, 0, 0, 1e-8, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, last] }]);
+    let file = loaded("glb", cube_buffer().glb(cube_on(node(1.0000001))));
+    assert!((volume(&placed(&file)) - 1.0).abs() < 1e-6);
+    assert!(error("glb", cube_buffer().glb(cube_on(node(1.1)))).contains("the last row of its matrix"));
+}
+
+#[test]
+fn older_versions_are_told() {
+    let text = r#"{"asset":{"version":"1.0"},"scene":"s","scenes":{"s":{"nodes":[]}},"nodes":{}}"#;
+    let expected = "mesh.gltf: it is glTF 1.0, expected 2.0: export it as glTF 2.0";
+    assert_eq!(error("gltf", text), expected);
+    assert_eq!(error("gltf", text.replace("\"1.0\"", "1.0")), expected);
+    assert_eq!(error("gltf", text.replace("\"asset\":{\"version\":\"1.0\"},", "")), expected);
 }

@@ -83,11 +83,12 @@ fn mixed_corners_lose_what_some_lack() {
 fn mistakes_have_their_line() {
     let wrong = |more: &str, expected: &str| assert_eq!(error("obj", format!("{SQUARE}{more}")), expected);
     wrong("f 1 2 9\n", "mesh.obj:5: the face names vertex 9, but the file has 4");
-    wrong("f 1/1 2/1 3/1\n", "mesh.obj:5: the face names texture coordinates 1, but the file has 0");
-    wrong("vn 0 0 1\nf 1//1 2//1 3//2\n", "mesh.obj:6: the face names normal 2, but the file has 1");
     wrong("f 1 2 0\n", "mesh.obj:5: `0` names a vertex 0, they count from 1");
     wrong("f 1 2 99999999999\n", "mesh.obj:5: the face names vertex 99999999999, but the file has 4");
-    wrong("f 1 2\n", "mesh.obj:5: the face has 2 corners, expected at least 3");
+    wrong(
+        "f 1 2\n",
+        "mesh.obj: the file has no face to show: 1 face of fewer than 3 corners skipped; `mesh` has no faces and was dropped",
+    );
     wrong("f 1 2 x\n", "mesh.obj:5: `x` is not a corner, expected `v`, `v/vt`, `v//vn` or `v/vt/vn`");
     wrong("f 1 2 1/1/1/1\n", "mesh.obj:5: `1/1/1/1` is not a corner, expected `v`, `v/vt`, `v//vn` or `v/vt/vn`");
     wrong("v 1 2\n", "mesh.obj:5: 2 numbers, expected 3");
@@ -96,4 +97,64 @@ fn mistakes_have_their_line() {
     wrong("v 0 0 1e99\n", "mesh.obj:5: 1e99 is beyond the range of numbers");
     let far = error("obj", "v 0 -2251799813685248 0\n");
     assert!(far.starts_with("mesh.obj:1: a coordinate is 2.251799813685248e15; single precision wants "), "{far}");
+}
+
+#[test]
+fn absent_normals_and_coordinates_are_left_out() {
+    let shown = |faces: &str, note: &str| {
+        let file = loaded("obj", format!("{SQUARE}{faces}"));
+        assert_eq!(file.notes.first().map(String::as_str), Some(note));
+        let triangles = &file.parts[0].triangles;
+        assert_eq!((triangles.indices.len(), triangles.normals.len(), triangles.uvs.len()), (1, 0, 0), "{faces}");
+    };
+    shown(
+        "f 1//1 2//2 3//3\n",
+        "faces name normals that the file does not have (line 5 the 3 of 0): such are left out",
+    );
+    shown(
+        "f 1/1 2/1 3/1\n",
+        "faces name texture coordinates that the file does not have (line 5 the 1 of 0): such are left out",
+    );
+    shown(
+        "vn 0 0 1\nf 1//1 2//1 3//2\n",
+        "faces name normals that the file does not have (line 6 the 2 of 1): such are left out",
+    );
+    shown("vn 0 0 1\nf 1//0 2//1 3//1\n", "some corners of `mesh` have no normal: those of the others were dropped");
+}
+
+#[test]
+fn faces_of_two_corners_are_skipped_and_counted() {
+    let file = loaded("obj", format!("{SQUARE}f 1 2\nf 1 2 3\nf 4\n"));
+    assert_eq!(file.notes, ["2 faces of fewer than 3 corners skipped"]);
+    assert_eq!(file.parts[0].triangles.indices, [[0, 1, 2]]);
+}
+
+#[test]
+fn every_encoding_is_the_same_file() {
+    let plain = format!("{SQUARE}usemtl a\nf 1 2 3 4\n");
+    let expected = loaded("obj", &plain);
+    let utf16 = |order: fn(u16) -> [u8; 2], mark: &str| {
+        format!("{mark}{plain}").encode_utf16().flat_map(order).collect::<Vec<u8>>()
+    };
+    let mut odd = utf16(u16::to_le_bytes, "\u{feff}");
+    odd.push(0);
+    for bytes in [
+        format!("\u{feff}{plain}").into_bytes(),
+        utf16(u16::to_le_bytes, "\u{feff}"),
+        utf16(u16::to_be_bytes, "\u{feff}"),
+        utf16(u16::to_le_bytes, ""),
+        utf16(u16::to_be_bytes, ""),
+        odd,
+        plain.replace('\n', "\r").into_bytes(),
+        plain.replace('\n', "\r\n").into_bytes(),
+        format!("\u{feff}{}", plain.replace('\n', "\r")).into_bytes(),
+    ] {
+        assert_eq!(loaded("obj", &bytes), expected, "{:?}", String::from_utf8_lossy(&bytes));
+    }
+    let latin: Vec<u8> = plain.replace("usemtl a", "usemtl Ros\u{e9}").chars().map(|letter| letter as u8).collect();
+    assert_eq!(loaded("obj", latin).parts[0].material.as_deref(), Some("Ros\u{e9}"));
+    assert_eq!(
+        error("obj", plain.replace('\n', "\r").replace("f 1 2", "f 1 x")),
+        "mesh.obj:6: `x` is not a corner, expected `v`, `v/vt`, `v//vn` or `v/vt/vn`"
+    );
 }

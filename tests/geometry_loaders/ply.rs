@@ -119,3 +119,41 @@ fn errors_of_bytes_name_element_and_place() {
     let expected = format!("mesh.ply, byte {}: the file ends in `vertex` 1, at byte {}", header + 12, header + 17);
     assert_eq!(error("ply", &bytes), expected);
 }
+
+#[test]
+fn strips_are_triangles() {
+    let header = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
+                  element tristrips 1\nproperty list int int vertex_indices\n";
+    let body = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n";
+    let strip =
+        |numbers: &str| loaded("ply", ply(header, &format!("{body}{numbers}\n"))).parts[0].triangles.indices.clone();
+    assert_eq!(strip("4 0 1 2 3"), [[0, 1, 2], [1, 3, 2]]);
+    // A new strip begins with its own first side; a vertex twice only joins.
+    assert_eq!(strip("8 0 1 2 3 -1 2 1 0"), [[0, 1, 2], [1, 3, 2], [2, 1, 0]]);
+    assert_eq!(strip("6 0 1 2 2 1 3"), [[0, 1, 2], [2, 3, 1]]);
+    let both = header
+        .replace("element tristrips", "element face 1\nproperty list uchar int vertex_indices\nelement tristrips");
+    let file = loaded("ply", ply(&both, &format!("{body}3 0 1 3\n3 0 3 2\n")));
+    assert_eq!((file.parts[0].triangles.indices.len(), file.notes.len()), (2, 0));
+    let wrong = error("ply", ply(header, &format!("{body}3 0 1 4\n")));
+    assert_eq!(wrong, "mesh.ply:14: strip 0 names vertex 4, but the file has 4 (counted from 0)");
+}
+
+#[test]
+fn every_encoding_is_the_same_file() {
+    let plain = write::ply_ascii();
+    let expected = loaded("ply", &plain);
+    let utf16: Vec<u8> = format!("\u{feff}{plain}").encode_utf16().flat_map(u16::to_le_bytes).collect();
+    for bytes in [format!("\u{feff}{plain}").into_bytes(), utf16, plain.replace('\n', "\r").into_bytes()] {
+        assert_eq!(loaded("ply", &bytes), expected);
+    }
+    // Bytes after a header of carriage returns, of which the first may be a line feed.
+    let head = write::ply_header("binary_little_endian");
+    let mut bytes = head.replace('\n', "\r").into_bytes();
+    bytes.extend(&write::ply_binary(false)[head.len()..]);
+    bytes[head.len()] = b'\n';
+    let first = f32::from_bits(u32::from(b'\n'));
+    let file = loaded("ply", bytes);
+    assert!(file.parts[0].triangles.positions.iter().any(|p| p.x == first), "the first number");
+    assert_eq!(file.parts[0].triangles.indices.len(), 12);
+}

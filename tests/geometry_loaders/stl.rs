@@ -68,3 +68,26 @@ fn mistakes_have_their_place() {
     longer.extend([0; 60]);
     assert_eq!(loaded("stl", longer).notes, ["60 bytes follow the last triangle"]);
 }
+
+#[test]
+fn normals_may_be_no_numbers_in_any_spelling() {
+    let text = write::stl_ascii();
+    let expected = loaded("stl", &text);
+    for odd in ["-nan(ind)", "-1.#IND", "1.#QNAN", "nan", "-NaN", "1.#INF", "nan(0x8000)"] {
+        let file = loaded("stl", text.replacen("normal 0 0 0", &format!("normal {odd} {odd} {odd}"), 3));
+        assert_eq!(file, expected, "{odd}");
+    }
+    assert_eq!(error("stl", text.replacen("normal 0 0 0", "normal up 0 0", 1)), "mesh.stl:2: `up` is not a number");
+    let wrong = error("stl", text.replacen("vertex 0 0 0", "vertex -1.#IND 0 0", 1));
+    assert_eq!(wrong, "mesh.stl:4: `-1.#IND` is not a number");
+}
+
+#[test]
+fn every_encoding_is_the_same_file() {
+    let plain = write::stl_ascii();
+    let expected = loaded("stl", &plain);
+    let utf16: Vec<u8> = format!("\u{feff}{plain}").encode_utf16().flat_map(u16::to_le_bytes).collect();
+    for bytes in [format!("\u{feff}{plain}").into_bytes(), utf16, plain.replace('\n', "\r").into_bytes()] {
+        assert_eq!(loaded("stl", &bytes), expected);
+    }
+}

@@ -107,7 +107,7 @@ impl Gathered {
             let why = if notes.is_empty() { String::new() } else { format!(": {}", notes.join("; ")) };
             return Err(Fault::new(format!("the file has no face to show{why}")));
         }
-        Ok(MeshFile { parts, placements: Vec::new(), cameras: Vec::new(), notes })
+        Ok(MeshFile { parts, notes, ..MeshFile::default() })
     }
 
     /// The same for formats that place each part once, where it is.

@@ -25,7 +25,7 @@
 //! | GLB | 28 | 0.03 |
 //!
 //! Coordinates are kept as the file has them (in single precision); only glTF says which way is up, and its placements
-//! turn its y to our z.
+//! turn its y to our z. It alone has a unit, too: [`MeshFile::is_in_metres`].
 
 mod error;
 mod gather;
@@ -35,6 +35,7 @@ mod obj;
 mod ply;
 mod polygon;
 mod stl;
+mod text;
 mod weld;
 
 use std::fs::File;
@@ -45,6 +46,7 @@ use glam::{DAffine3, DVec3};
 
 use super::Triangles;
 pub use error::{LoadError, Place};
+pub use gltf::Z_UP;
 
 /// What a mesh file holds.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -55,6 +57,8 @@ pub struct MeshFile {
     /// it.
     pub placements: Vec<Placement>,
     pub cameras: Vec<FileCamera>,
+    /// Lengths are metres and y was up, as glTF has it; the other formats say neither.
+    pub is_in_metres: bool,
     /// What was skipped or could not be understood, in sentences for people.
     pub notes: Vec<String>,
 }

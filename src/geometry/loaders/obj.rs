@@ -2,8 +2,9 @@
 //!
 //! Source: "Object Files (.obj)", Advanced Visualizer manual, appendix B1 (Wavefront, 1993). `v`, `vt`, `vn`, `f`, `o`,
 //! `g`, `usemtl` are read; corners may be `v`, `v/vt`, `v//vn` or `v/vt/vn`, counted from 1 or, negative, backwards
-//! from the line. Each (object, group, material) is a part. Lines, points and free-form surfaces are counted in a note;
-//! colours of vertices, smoothing groups and material libraries are passed over.
+//! from the line. Each (object, group, material) is a part. Lines, points, free-form surfaces, and faces of fewer than
+//! three corners are counted in a note, and so are normals and texture coordinates that a face names and the file does
+//! not have; colours of vertices, smoothing groups and material libraries are passed over.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -12,6 +13,7 @@ use glam::{Vec2, Vec3};
 use super::error::Fault;
 use super::gather::{Gathered, count, position};
 use super::polygon::Polygons;
+use super::text::{decoded, text};
 use super::weld::{Key, Weld};
 use super::{MeshFile, Part, Triangles, number};
 
@@ -19,8 +21,8 @@ use super::{MeshFile, Part, Triangles, number};
 const NONE: u32 = u32::MAX;
 
 pub(super) fn read(bytes: &[u8], stem: &str) -> Result<MeshFile, Fault> {
-    // Names in older encodings lose letters; numbers and keywords are ASCII in all of them.
-    let text = String::from_utf8_lossy(bytes);
+    let bytes = decoded(bytes);
+    let text = text(&bytes);
     let mut reader = Reader::default();
     let mut lines = text.split('\n').enumerate();
     while let Some((index, line)) = lines.next() {
@@ -78,6 +80,8 @@ struct Reader {
     numbers: HashMap<Label, usize>,
     /// The part of the current label; it is looked up at the first face after a change.
     current: Option<usize>,
+    /// Faces of fewer than three corners.
+    thin: usize,
     /// Other keywords, how many lines of each.
     passed: BTreeMap<String, usize>,
 }
@@ -94,6 +98,7 @@ impl Default for Reader {
             faces: Vec::new(),
             numbers: HashMap::new(),
             current: None,
+            thin: 0,
             passed: BTreeMap::new(),
         }
     }
@@ -160,8 +165,9 @@ impl Reader {
         }
         let size = faces.corners.len() - before;
         if size < 3 {
-            let message = format!("the face has {}, expected at least 3", count(size, "corner"));
-            return Err(Fault::at_line(line, message));
+            faces.corners.truncate(before);
+            self.thin += 1;
+            return Ok(());
         }
         // A line of 2³² corners is longer than memory.
         faces.sizes.push(size as u32);
@@ -170,13 +176,24 @@ impl Reader {
 
     fn finish(self, stem: &str, cut_short: bool) -> Result<MeshFile, Fault> {
         let counts = [self.positions.len(), self.uvs.len(), self.normals.len()];
-        for (stream, count) in self.streams.iter().zip(counts) {
-            let (index, line) = stream.largest;
-            if index as usize > count {
-                return Err(missing(stream.name, i64::from(index), count, line));
-            }
-        }
         let mut gathered = Gathered::default();
+        for (number, (stream, count)) in self.streams.iter().zip(counts).enumerate() {
+            let (index, line) = stream.largest;
+            if index as usize <= count {
+                continue;
+            }
+            let fault = missing(stream.name, i64::from(index), count, line);
+            if number == 0 {
+                return Err(fault);
+            }
+            gathered.note(format!(
+                "faces name {} that the file does not have (line {line} the {index} of {count}): such are left out",
+                plural(stream.name)
+            ));
+        }
+        if self.thin > 0 {
+            gathered.note(format!("{} of fewer than 3 corners skipped", super::gather::count(self.thin, "face")));
+        }
         for faces in &self.faces {
             let part = self.part(faces, stem, &mut gathered)?;
             gathered.add(part);
@@ -193,7 +210,10 @@ impl Reader {
     fn part(&self, faces: &Faces, stem: &str, gathered: &mut Gathered) -> Result<Part, Fault> {
         let name = name(&faces.label, stem);
         let mut weld = Weld::default();
-        let corners: Option<Vec<u32>> = faces.corners.iter().map(|&corner| weld.number(corner)).collect();
+        let (uvs, normals) = (self.uvs.len(), self.normals.len());
+        let there = |index: u32, count: usize| if (index as usize) < count { index } else { NONE };
+        let present = |&[v, t, n]: &Key| [v, there(t, uvs), there(n, normals)];
+        let corners: Option<Vec<u32>> = faces.corners.iter().map(|corner| weld.number(present(corner))).collect();
         let corners = corners.ok_or_else(|| Fault::new(format!("`{name}` has more than 2³² vertices")))?;
         let positions: Vec<Vec3> = weld.keys.iter().map(|&[v, ..]| fetch(&self.positions, v)).collect();
         let lacking = |at: fn(&Key) -> u32| weld.keys.iter().filter(|key| at(key) == NONE).count();
@@ -212,6 +232,10 @@ impl Reader {
         let triangles = Triangles { positions, normals, uvs, indices };
         Ok(Part { name, material: faces.label.material.clone(), triangles })
     }
+}
+
+fn plural(name: &str) -> String {
+    if name.ends_with('s') { name.to_owned() } else { format!("{name}s") }
 }
 
 fn fetch<T: Copy + Default>(values: &[T], index: u32) -> T {
@@ -247,6 +271,8 @@ fn corner(word: &str, counts: [usize; 3], streams: &mut [Stream; 3], line: usize
     for (place, ((slot, stream), count)) in key.iter_mut().zip(streams).zip(counts).enumerate() {
         match words.next() {
             Some("") if place > 0 => {}
+            // Of coordinates and normals 0 is none.
+            Some("0") if place > 0 => {}
             Some(index) => *slot = resolve(index, word, count, stream, line)?,
             None => {}
         }

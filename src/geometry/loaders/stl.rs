@@ -8,6 +8,7 @@ use glam::{DVec3, Vec3};
 
 use super::error::Fault;
 use super::gather::{Gathered, position};
+use super::text::{decoded, text};
 use super::weld::Weld;
 use super::{MeshFile, Part, Triangles, number};
 
@@ -15,13 +16,14 @@ const HEAD: usize = 84;
 const RECORD: usize = 50;
 
 pub(super) fn read(bytes: &[u8], stem: &str) -> Result<MeshFile, Fault> {
+    let as_text = decoded(bytes);
     let promised = bytes.get(80..).and_then(|rest| rest.first_chunk()).map(|&count| u32::from_le_bytes(count) as usize);
     let size = promised.and_then(|count| count.checked_mul(RECORD)?.checked_add(HEAD));
     // Binary files begin with "solid" often enough; only their size tells, or that they are no text.
-    let begins_as_text = bytes.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
-    let is_text = bytes.iter().take(1024).all(|&b| b >= b' ' || b.is_ascii_whitespace());
+    let begins_as_text = as_text.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
+    let is_text = as_text.iter().take(1024).all(|&b| b >= b' ' || b.is_ascii_whitespace());
     if begins_as_text && is_text && size != Some(bytes.len()) {
-        return read_text(&String::from_utf8_lossy(bytes), stem);
+        return read_text(&text(&as_text), stem);
     }
     match promised {
         Some(promised) => read_binary(bytes, promised, stem),
@@ -146,6 +148,20 @@ impl<'a> Words<'a> {
         }
     }
 
+    /// A normal, in whose place some programs write what their C library makes of 0/0: `-nan(ind)`, `-1.#IND`.
+    fn normal(&mut self) -> Result<Vec3, Fault> {
+        let mut vector = [f32::NAN; 3];
+        for slot in &mut vector {
+            let word = self.next().ok_or_else(|| self.fault(None, "a number"))?;
+            *slot = match number::parse::<f64>(word) {
+                Ok(value) => value as f32,
+                Err(_) if is_odd_nan(word) => f32::NAN,
+                Err(message) => return Err(Fault::at_line(self.line, message)),
+            };
+        }
+        Ok(Vec3::from_array(vector))
+    }
+
     fn vector(&mut self) -> Result<DVec3, Fault> {
         let mut vector = [0.0; 3];
         for slot in &mut vector {
@@ -154,6 +170,11 @@ impl<'a> Words<'a> {
         }
         Ok(DVec3::from_array(vector))
     }
+}
+
+fn is_odd_nan(word: &str) -> bool {
+    let word = word.trim_start_matches(['+', '-']).to_ascii_lowercase();
+    ["nan", "qnan", "snan", "ind", "inf", "1.#"].iter().any(|odd| word.starts_with(odd))
 }
 
 fn read_text(text: &str, stem: &str) -> Result<MeshFile, Fault> {
@@ -181,7 +202,7 @@ fn read_text(text: &str, stem: &str) -> Result<MeshFile, Fault> {
 
 fn read_facet(words: &mut Words, solid: &mut Solid) -> Result<(), Fault> {
     words.expect("normal")?;
-    let normal = words.vector()?.as_vec3();
+    let normal = words.normal()?;
     words.expect("outer")?;
     words.expect("loop")?;
     let mut corners = [Vec3::ZERO; 3];

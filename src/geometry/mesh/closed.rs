@@ -13,15 +13,23 @@ use crate::geometry::Triangles;
 pub struct Surroundings {
     /// Edges that triangles run through more often one way than the other.
     pub open_edges: usize,
-    /// The middle of one of them.
+    /// Those of them that an odd number of triangles have: at the others all that is wrong are windings.
+    pub gaps: usize,
+    /// The middle of an open edge, of a gap if there is one.
     pub opening: Option<Vec3>,
     /// Signed volume, cubed units of the mesh; of no meaning unless it is closed.
     pub volume: f64,
+    /// Below this a volume is rounding.
+    least_volume: f64,
 }
+
+/// A volume below this share of area times size is rounding: sheets whose sides coincide.
+const SHEET: f64 = 1e-9;
 
 impl Surroundings {
     pub fn of(mesh: &Triangles) -> Self {
-        let mut found = Self { volume: volume(mesh), ..Self::default() };
+        let (volume, least_volume) = volume(mesh);
+        let mut found = Self { volume, least_volume, ..Self::default() };
         let mut edges = Edges::of(mesh);
         for lower in 0..mesh.positions.len() {
             let ends = edges.from(lower);
@@ -29,9 +37,13 @@ impl Surroundings {
             for same in ends.chunk_by(|a, b| a.corner() == b.corner()) {
                 let forth = same.iter().filter(|end| end.is_forth()).count();
                 if 2 * forth != same.len() {
-                    found.open_edges += 1;
+                    let gap = same.len() % 2 == 1;
                     let middle = mesh.positions[lower] * 0.5 + mesh.positions[same[0].corner()] * 0.5;
-                    found.opening = found.opening.or(Some(middle));
+                    if found.opening.is_none() || (gap && found.gaps == 0) {
+                        found.opening = Some(middle);
+                    }
+                    found.open_edges += 1;
+                    found.gaps += usize::from(gap);
                 }
             }
         }
@@ -40,6 +52,11 @@ impl Surroundings {
 
     pub fn is_closed(&self) -> bool {
         self.open_edges == 0
+    }
+
+    /// Whether it is closed around something: two sheets back to back are not.
+    pub fn is_solid(&self) -> bool {
+        self.is_closed() && self.volume.abs() > self.least_volume
     }
 }
 
@@ -101,7 +118,7 @@ impl Edges {
 
 /// For each position, the first one that equals it. A table with room for twice as many, searched onwards from where the bits of a
 /// position say.
-pub(super) fn weld(positions: &[Vec3]) -> Vec<u32> {
+pub(in crate::geometry) fn weld(positions: &[Vec3]) -> Vec<u32> {
     const FREE: u32 = u32::MAX;
     let size = (2 * positions.len()).next_power_of_two();
     let mut table = vec![FREE; size];
@@ -130,12 +147,15 @@ fn scatter(position: &Vec3) -> usize {
     (hash ^ (hash >> 32)) as usize
 }
 
-/// About a corner of the mesh, so that a mesh far from the origin keeps its digits.
-fn volume(mesh: &Triangles) -> f64 {
-    let Some(origin) = mesh.positions.first().map(|p| p.as_dvec3()) else { return 0.0 };
-    let six = |triangle: &[u32; 3]| -> f64 {
+/// About a corner of the mesh, so that a mesh far from the origin keeps its digits; and the least volume that is one.
+fn volume(mesh: &Triangles) -> (f64, f64) {
+    let Some(origin) = mesh.positions.first().map(|p| p.as_dvec3()) else { return (0.0, 0.0) };
+    let (mut six, mut area2, mut farthest) = (0.0, 0.0, 0.0f64);
+    for triangle in &mesh.indices {
         let [a, b, c]: [DVec3; 3] = triangle.map(|corner| mesh.positions[corner as usize].as_dvec3() - origin);
-        a.dot(b.cross(c))
-    };
-    mesh.indices.iter().map(six).sum::<f64>() / 6.0
+        six += a.dot(b.cross(c));
+        area2 += (b - a).cross(c - a).length();
+        farthest = farthest.max(a.length_squared());
+    }
+    (six / 6.0, SHEET * area2 * farthest.sqrt())
 }

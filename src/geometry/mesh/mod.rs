@@ -16,6 +16,7 @@ mod query;
 mod smooth;
 
 pub use closed::Surroundings;
+pub(super) use closed::weld;
 pub use placed::Placed;
 
 use std::sync::OnceLock;
@@ -58,13 +59,12 @@ impl Mesh {
     /// A closed mesh that is inside out is turned round: its outside is where there is more room.
     pub fn new(mut triangles: Triangles) -> Result<Self, GeometryError> {
         examine(&triangles)?;
-        let (surroundings, (tree, groups)) = rayon::join(|| Surroundings::of(&triangles), || plant(&triangles));
+        let (mut surroundings, (tree, groups)) = rayon::join(|| Surroundings::of(&triangles), || plant(&triangles));
         let inside_out = surroundings.is_closed() && surroundings.volume < 0.0;
         if inside_out {
             turn_round(&mut triangles);
+            surroundings.volume = -surroundings.volume;
         }
-        let surroundings =
-            Surroundings { volume: surroundings.volume * if inside_out { -1.0 } else { 1.0 }, ..surroundings };
         let block =
             |leaf| Block::new(groups.get(leaf).iter().map(|&triangle| (corners(&triangles, triangle), triangle)));
         let blocks: Vec<Block> = (0..groups.len()).into_par_iter().map(block).collect();

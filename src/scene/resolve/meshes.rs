@@ -1,13 +1,14 @@
 //! Mesh files: each read once, however many objects show it.
 
 use super::Resolver;
+use super::bodies::Origin;
 use super::place::place;
-use crate::geometry::loaders::{self, FileCamera, MeshFile};
-use crate::geometry::{Mesh, Placed};
+use crate::geometry::loaders::{self, FileCamera, MeshFile, Projection, Z_UP};
+use crate::geometry::{Mesh, Placed, Surroundings};
 use crate::scene::describe;
 use crate::scene::{SceneError, listed};
 use crate::spectrum::nearest;
-use glam::{Affine3A, DVec3};
+use glam::{Affine3A, DAffine3, DMat3, DVec3};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -24,8 +25,18 @@ pub struct Loaded {
 }
 
 impl Loaded {
-    pub fn cameras(&self) -> &[FileCamera] {
-        &self.file.cameras
+    /// Its cameras, where one unit of the file is so many of the scene's.
+    pub fn cameras(&self, scale: f64) -> impl Iterator<Item = FileCamera> {
+        self.file.cameras.iter().cloned().map(move |camera| FileCamera {
+            position: camera.position * scale,
+            projection: match camera.projection {
+                Projection::Orthographic { width, height } => {
+                    Projection::Orthographic { width: width * scale, height: height * scale }
+                }
+                perspective => perspective,
+            },
+            ..camera
+        })
     }
 }
 
@@ -35,13 +46,14 @@ pub struct Piece {
     /// As the file calls it.
     pub material: Option<String>,
     pub placed: Placed,
+    pub origin: Origin,
 }
 
 impl Resolver<'_> {
     /// The pieces of a mesh file that an object shows, where the file has them, as seen from an origin.
     pub fn pieces(&mut self, described: &describe::MeshFile, origin: DVec3) -> Result<Vec<Piece>, SceneError> {
-        let crease = described.crease_angle.as_ref().map(|angle| self.crease(angle)).transpose()?;
-        let loaded = self.loaded(&described.file, crease)?;
+        let loaded = self.mesh_file(described)?;
+        let turned = self.file_to_scene(described, &loaded)?;
         let wanted = described.part.as_ref();
         let mut pieces = Vec::new();
         for placement in &loaded.file.placements {
@@ -49,7 +61,7 @@ impl Resolver<'_> {
             if wanted.is_some_and(|wanted| ![&placement.name, &part.name].contains(&wanted.get_ref())) {
                 continue;
             }
-            let transform = placement.transform;
+            let transform = turned * placement.transform;
             let translation = place(transform.translation.to_array(), origin);
             let affine = Affine3A::from_mat3_translation(transform.matrix3.as_mat3(), translation);
             let there = Placed::new(loaded.meshes[placement.part].clone());
@@ -59,7 +71,8 @@ impl Resolver<'_> {
                     self.text.error(&described.file.span(), format!("`{}` of this file: {error}", placement.name))
                 })?,
             };
-            pieces.push(Piece { name: placement.name.clone(), material: part.material.clone(), placed });
+            let origin = Origin { part: placement.part, affine };
+            pieces.push(Piece { name: placement.name.clone(), material: part.material.clone(), placed, origin });
         }
         match wanted {
             Some(wanted) if pieces.is_empty() => {
@@ -67,6 +80,43 @@ impl Resolver<'_> {
                 Err(self.not_in_file("part", wanted, &names.collect::<Vec<_>>()))
             }
             _ => Ok(pieces),
+        }
+    }
+
+    /// The file of an object, smoothed as the object says.
+    pub fn mesh_file(&mut self, described: &describe::MeshFile) -> Result<Arc<Loaded>, SceneError> {
+        let crease = described.crease_angle.as_ref().map(|angle| self.crease(angle)).transpose()?;
+        self.loaded(&described.file, crease)
+    }
+
+    /// From the lengths and axes of a file, turned to z upwards where its format says what is up, to the scene's.
+    fn file_to_scene(&self, described: &describe::MeshFile, loaded: &Loaded) -> Result<DAffine3, SceneError> {
+        let scale = match &described.unit {
+            None => self.file_unit(loaded),
+            Some(unit) => match self.meters_per_unit {
+                Some(scene) => unit.get_ref().metres() / scene,
+                None => {
+                    let error =
+                        self.text.error(&unit.span(), "a unit of length, so the scene must say how long its own is");
+                    return Err(
+                        error.help("add `meters_per_unit = …` at the top, 0.001 if the scene is in millimetres")
+                    );
+                }
+            },
+        };
+        let turn = match (described.up, loaded.file.is_in_metres) {
+            (Some(describe::UpName::Y), false) => Z_UP,
+            (Some(describe::UpName::Z), true) => Z_UP.transpose(),
+            _ => DMat3::IDENTITY,
+        };
+        Ok(DAffine3 { matrix3: turn * scale, translation: DVec3::ZERO })
+    }
+
+    /// How many units of the scene one of a file is, as far as the two say.
+    pub fn file_unit(&self, loaded: &Loaded) -> f64 {
+        match self.meters_per_unit {
+            Some(scene) if loaded.file.is_in_metres => 1.0 / scene,
+            _ => 1.0,
         }
     }
 
@@ -115,14 +165,25 @@ impl Resolver<'_> {
     }
 
     /// Names a dielectric whose mesh has no inside.
-    pub fn warn_of_openings(&mut self, name: &str, placed: &Placed) {
-        let surroundings = placed.mesh().surroundings();
-        if let Some(middle) = surroundings.opening {
-            self.warnings.push(format!(
-                "`{name}` is not closed: {} of its edges have a triangle on one side only, one of them at {:.6}, {:.6}, {:.6} of the file; \
+    pub fn warn_of_openings(&mut self, name: &str, surroundings: &Surroundings) {
+        let Surroundings { open_edges, gaps, opening, .. } = *surroundings;
+        let at = |middle: glam::Vec3| format!("{:.6}, {:.6}, {:.6} of the file", middle.x, middle.y, middle.z);
+        let what = match opening {
+            Some(middle) if gaps > 0 => format!(
+                "`{name}` is not closed: {gaps} of its edges have a triangle on one side only, one of them at {}; \
                  light that comes in or out by the gap does not know that it did",
-                surroundings.open_edges, middle.x, middle.y, middle.z
-            ));
-        }
+                at(middle)
+            ),
+            Some(middle) => format!(
+                "`{name}` has no inside: at {open_edges} of its edges triangles are wound against each other and cannot be made to agree, \
+                 one of them at {}",
+                at(middle)
+            ),
+            None if !surroundings.is_solid() => {
+                format!("`{name}` encloses nothing: its triangles lie on each other, and a clear solid needs an inside")
+            }
+            None => return,
+        };
+        self.warnings.push(what);
     }
 }

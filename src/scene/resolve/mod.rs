@@ -1,6 +1,7 @@
 //! From what the files say to a scene that renders without failing: names looked up, units converted, every check made.
 
 mod around;
+mod bodies;
 mod camera;
 mod covers;
 mod emission;
@@ -28,6 +29,7 @@ use crate::fresnel::FresnelModel;
 use crate::geometry::{Bounds, World};
 use crate::light::{Environment, Lights};
 use crate::spectrum::{Arena, ColorMatching, Library, Observer, Spectrum, SpectrumId};
+use bodies::Bodies;
 use glam::{DVec3, Vec3};
 use meshes::Meshes;
 use objects::Objects;
@@ -72,6 +74,7 @@ pub fn resolve(text: Text, library: &Library, overrides: &Overrides) -> Result<S
         warnings: Vec::new(),
         sources: Vec::new(),
         meshes: BTreeMap::new(),
+        bodies: BTreeMap::new(),
         files: BTreeSet::new(),
     };
     resolver.scene(&file, overrides)
@@ -106,6 +109,7 @@ struct Resolver<'a> {
     warnings: Vec<String>,
     sources: Vec<Text>,
     meshes: Meshes,
+    bodies: Bodies,
     /// Meshes and pictures that were read.
     files: BTreeSet<PathBuf>,
 }
@@ -149,6 +153,8 @@ impl Resolver<'_> {
         Ok(Scene {
             spectra: self.spectra,
             world,
+            origin: self.origin,
+            meters_per_unit: self.meters_per_unit,
             objects,
             covers,
             surfaces: self.surfaces,

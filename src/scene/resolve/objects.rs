@@ -1,6 +1,7 @@
 //! Objects: each a shape of a material, some of them lights.
 
 use super::Resolver;
+use super::bodies::Origin;
 use super::emission::Resolved;
 use super::shapes::affine;
 use crate::geometry::{Shape, ShapeId};
@@ -19,11 +20,24 @@ pub struct Objects {
     pub emitters: Vec<Emitter>,
 }
 
-/// A shape that an object consists of, and its material if a mesh file names one.
-struct Piece {
+/// A shape that an object consists of, and its material.
+#[derive(Clone)]
+pub struct Piece {
+    pub name: String,
+    pub shape: Shape,
+    pub material: String,
+    /// Index into the scene's surfaces.
+    pub surface: u32,
+    /// If it is of a mesh file.
+    pub origin: Option<Origin>,
+}
+
+/// A shape before its material is looked up: the name that a mesh file gives it, if any.
+struct Bare {
     name: String,
     shape: Shape,
     material: Option<String>,
+    origin: Option<Origin>,
 }
 
 type Replace = BTreeMap<Spanned<String>, Spanned<String>>;
@@ -42,12 +56,19 @@ impl Resolver<'_> {
             // Once for all pieces and copies: each integral over a light's spectrum takes 0.3 ms.
             let emission = object.emission.as_ref();
             let light = emission.map(|emission| self.emission(emission.get_ref(), &name)).transpose()?;
-            for piece in self.pieces_of(object, &name)? {
-                let named = piece.material.as_deref().filter(|_| object.material.is_none());
+            let mut pieces = Vec::new();
+            for bare in self.bare_pieces(object, &name)? {
+                let named = bare.material.as_deref().filter(|_| object.material.is_none());
                 let replacement = named.and_then(|named| replace.get_key_value(named));
                 replaced.extend(replacement.map(|(name, _)| name.get_ref().as_str()));
                 let material = object.material.as_ref().or(replacement.map(|(_, material)| material));
-                self.object(&mut all, described, piece, material, light.as_ref())?;
+                pieces.push(self.piece(described, bare, material)?);
+            }
+            if let describe::Shape::Mesh(file) = object.shape.get_ref() {
+                pieces = self.bodies(object, file, &name, pieces)?;
+            }
+            for piece in self.standing(object, pieces)? {
+                self.object(&mut all, object, piece, light.as_ref())?;
             }
         }
         let unused = replace.keys().filter(|name| !replaced.contains(name.get_ref().as_str()));
@@ -57,23 +78,30 @@ impl Resolver<'_> {
         Ok(all)
     }
 
-    /// The shapes of an object: one, or as many as its file and its copies make.
-    fn pieces_of(&mut self, object: &describe::Object, name: &str) -> Result<Vec<Piece>, SceneError> {
-        let [of_shape, of_transform, of_copies] = self.origins(object);
+    /// The shapes of an object where they are made: one, or as many as its file has.
+    fn bare_pieces(&mut self, object: &describe::Object, name: &str) -> Result<Vec<Bare>, SceneError> {
+        let [of_shape, ..] = self.origins(object);
         let mut pieces = self
             .shape(object, of_shape)?
-            .map_or_else(Vec::new, |shape| vec![Piece { name: name.to_owned(), shape, material: None }]);
+            .map_or_else(Vec::new, |shape| vec![Bare { name: name.to_owned(), shape, material: None, origin: None }]);
         if let describe::Shape::Mesh(file) = object.shape.get_ref() {
             let found = self.pieces(file, of_shape)?;
             let alone = found.len() == 1;
             let full = |part: String| if alone || part == name { name.to_owned() } else { format!("{name}: {part}") };
-            pieces.extend(found.into_iter().map(|piece| Piece {
+            pieces.extend(found.into_iter().map(|piece| Bare {
                 name: full(piece.name),
                 shape: piece.placed.into(),
                 material: piece.material,
+                origin: Some(piece.origin),
             }));
         }
         pieces.iter().for_each(|piece| self.note_rounding(&piece.name, &piece.shape));
+        Ok(pieces)
+    }
+
+    /// The pieces of an object where it stands: as often as its copies say.
+    fn standing(&mut self, object: &describe::Object, mut pieces: Vec<Piece>) -> Result<Vec<Piece>, SceneError> {
+        let [_, of_transform, of_copies] = self.origins(object);
         if let Some(transform) = &object.transform {
             pieces = pieces.iter().map(|piece| self.moved(piece, transform, of_transform)).collect::<Result<_, _>>()?;
         }
@@ -100,19 +128,18 @@ impl Resolver<'_> {
         let affine = affine(transform.get_ref(), origin);
         let shape = piece.shape.transformed(&affine).map_err(|error| self.text.error(&transform.span(), error))?;
         self.note_rounding(&piece.name, &shape);
-        Ok(Piece { name: piece.name.clone(), shape, material: piece.material.clone() })
+        Ok(Piece { shape, ..piece.clone() })
     }
 
-    fn object(
+    /// A shape with its material, as far as both go together.
+    fn piece(
         &mut self,
-        all: &mut Objects,
         described: &Spanned<describe::Object>,
-        piece: Piece,
+        bare: Bare,
         material: Option<&Spanned<String>>,
-        light: Option<&Resolved>,
-    ) -> Result<(), SceneError> {
+    ) -> Result<Piece, SceneError> {
         let object = described.get_ref();
-        let Piece { name, shape, material: named } = piece;
+        let Bare { name, shape, material: named, origin } = bare;
         // What only shines is black, whatever its file calls it.
         let named = named.filter(|_| object.emission.is_none() && material.is_none());
         let by_file = named.map(|named| Spanned::new(object.shape.span(), named));
@@ -125,11 +152,22 @@ impl Resolver<'_> {
             self.check_dielectric(object, &shape, &name)?;
         }
         self.check_coordinates(object, surface, &shape, &name)?;
+        let material = material.map_or("light", |material| material.get_ref()).to_owned();
+        Ok(Piece { name, shape, material, surface, origin })
+    }
+
+    fn object(
+        &mut self,
+        all: &mut Objects,
+        object: &describe::Object,
+        piece: Piece,
+        light: Option<&Resolved>,
+    ) -> Result<(), SceneError> {
+        let Piece { name, shape, material, surface, .. } = piece;
         if let (Some(emission), Some(light)) = (&object.emission, light) {
             let id = ShapeId(all.shapes.len() as u32);
             all.emitters.push(self.emitter(emission.get_ref(), light, &name, id, &shape)?);
         }
-        let material = material.map_or("light", |material| material.get_ref()).to_owned();
         let priority = object.priority;
         let (rank, inside, touches, covers) = (0, Inside::General, false, false);
         all.objects.push(Object { name, material, surface, priority, rank, inside, touches, covers });
@@ -194,10 +232,8 @@ impl Resolver<'_> {
         Ok(Emitter { source: Source::Shape { id, two_sided }, radiance: light.id, power })
     }
 
-    fn check_dielectric(&mut self, object: &describe::Object, shape: &Shape, name: &str) -> Result<(), SceneError> {
-        if let Shape::Mesh(placed) = shape {
-            self.warn_of_openings(name, placed);
-        } else if !shape.is_solid() {
+    fn check_dielectric(&self, object: &describe::Object, shape: &Shape, name: &str) -> Result<(), SceneError> {
+        if !matches!(shape, Shape::Mesh(_)) && !shape.is_solid() {
             let message = format!("{name} is flat, but a dielectric needs an inside");
             return Err(self.text.error(&object.shape.span(), message).help("use a thin `box` instead"));
         }

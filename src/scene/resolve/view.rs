@@ -59,7 +59,7 @@ impl Resolver<'_> {
         named: Option<&Spanned<String>>,
     ) -> Result<FileCamera, SceneError> {
         let loaded = self.loaded(file, None)?;
-        let cameras = loaded.cameras();
+        let cameras: Vec<FileCamera> = loaded.cameras(self.file_unit(&loaded)).collect();
         let names = || cameras.iter().map(|camera| camera.name.as_str());
         let found = match named {
             None => cameras.first(),

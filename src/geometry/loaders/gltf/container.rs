@@ -8,6 +8,7 @@ use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 
 use super::super::contents;
 use super::super::error::Fault;
+use super::super::text::decoded;
 use super::json::{Buffer, Root};
 
 const PADDING: GeneralPurposeConfig =
@@ -28,12 +29,27 @@ pub(super) fn open(bytes: &[u8]) -> Result<Container<'_>, Fault> {
 }
 
 fn open_text(bytes: &[u8]) -> Result<Container<'_>, Fault> {
+    let bytes = &*decoded(bytes);
     let root = serde_json::from_slice(bytes).map_err(|error| {
+        if let Some(old) = older(bytes) {
+            return old;
+        }
         let message = error.to_string();
         let message = message.split(" at line ").next().unwrap_or(&message);
         Fault::at_line(error.line(), format!("column {}: {message}", error.column()))
     })?;
     Ok(Container { root, chunk: None, trailing: 0 })
+}
+
+/// What is no glTF 2.0 may be glTF 1.0, whose parts stand under names instead of in lists.
+fn older(json: &[u8]) -> Option<Fault> {
+    let document: serde_json::Value = serde_json::from_slice(json).ok()?;
+    let version = document.get("asset").and_then(|asset| asset.get("version"));
+    let version = version.map(|version| version.to_string().replace('"', ""));
+    let named = document.get("scenes").is_some_and(serde_json::Value::is_object);
+    let version = version.or(named.then(|| "1.0".to_owned()))?;
+    (named || version.starts_with('1'))
+        .then(|| Fault::new(format!("it is glTF {version}, expected 2.0: export it as glTF 2.0")))
 }
 
 fn word(bytes: &[u8], at: usize) -> Result<u32, Fault> {
@@ -45,7 +61,7 @@ fn word(bytes: &[u8], at: usize) -> Result<u32, Fault> {
 fn open_glb(bytes: &[u8]) -> Result<Container<'_>, Fault> {
     let (version, length) = (word(bytes, 4)?, word(bytes, 8)? as usize);
     if version != 2 {
-        return Err(Fault::at_byte(4, format!("the GLB is of version {version}, expected 2")));
+        return Err(Fault::at_byte(4, format!("the GLB is of version {version}, expected 2: export it as glTF 2.0")));
     }
     let Some(all) = bytes.get(..length) else {
         let message = format!("the file ends here, but its head promises {length} bytes");

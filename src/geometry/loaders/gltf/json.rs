@@ -53,6 +53,30 @@ pub(super) struct Node {
     pub mesh: Option<usize>,
     pub camera: Option<usize>,
     pub skin: Option<usize>,
+    #[serde(default)]
+    pub extensions: NodeExtensions,
+}
+
+#[derive(Default, Deserialize)]
+pub(super) struct NodeExtensions {
+    #[serde(rename = "EXT_mesh_gpu_instancing")]
+    pub instancing: Option<Instancing>,
+}
+
+/// Many places of one mesh.
+#[derive(Deserialize)]
+pub(super) struct Instancing {
+    pub attributes: InstanceAttributes,
+}
+
+#[derive(Deserialize)]
+pub(super) struct InstanceAttributes {
+    #[serde(rename = "TRANSLATION")]
+    pub translation: Option<usize>,
+    #[serde(rename = "ROTATION")]
+    pub rotation: Option<usize>,
+    #[serde(rename = "SCALE")]
+    pub scale: Option<usize>,
 }
 
 #[derive(Deserialize)]

@@ -3,7 +3,8 @@
 //! Source: "glTF 2.0 Specification" (Khronos, 2021; ISO/IEC 12113:2022). Nodes of the default scene (or the first, or
 //! all nodes where there is none) are followed down; each mesh is read once, however many nodes show it. y is upwards
 //! in the format and z here: (x, y, z) becomes (x, −z, y), in the placements. Lengths are metres in the format.
-//! Materials are kept by name; skins, morph targets, animations, lights and pictures are not read.
+//! Materials are kept by name; skins, morph targets, animations, lights and pictures are not read. Meshes that stand at
+//! many places by EXT_mesh_gpu_instancing stand there.
 
 mod accessor;
 mod container;
@@ -11,7 +12,7 @@ mod json;
 mod nodes;
 mod primitive;
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
 
 use super::error::Fault;
@@ -21,11 +22,26 @@ use accessor::Accessors;
 use container::{Buffers, Container};
 use json::Root;
 use nodes::Placed;
+pub use nodes::Z_UP;
 use primitive::Shape;
 
 /// Extensions that change nothing of what is read here: materials are replaced, pictures are not read.
-const HARMLESS: [&str; 5] =
-    ["KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_", "KHR_mesh_quantization"];
+const HARMLESS: [&str; 6] =
+    ["KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_", "KHR_mesh_quantization", INSTANCING];
+
+/// One mesh at many places.
+const INSTANCING: &str = "EXT_mesh_gpu_instancing";
+
+/// Extensions that some exporters require though nothing of the meshes depends on them; they are passed over, and told.
+const PASSED: [&str; 7] = [
+    "KHR_lights_",
+    "EXT_lights_",
+    "KHR_xmp",
+    "KHR_animation_pointer",
+    "KHR_node_selectability",
+    "KHR_node_hoverability",
+    "KHR_audio_emitter",
+];
 
 pub(super) fn read(bytes: &[u8], path: &Path) -> Result<MeshFile, Fault> {
     let Container { root, chunk, trailing } = container::open(bytes)?;
@@ -63,17 +79,21 @@ impl Reader {
 
     fn check_extensions(&mut self, root: &Root) -> Result<(), Fault> {
         let harmless = |name: &str| HARMLESS.iter().any(|known| name.starts_with(known));
-        let required: Vec<String> = root.extensions_required.iter().filter(|name| !harmless(name)).cloned().collect();
+        let passed = |name: &str| PASSED.iter().any(|known| name.starts_with(known));
+        let unknown = |name: &&String| !harmless(name) && !passed(name);
+        let required: Vec<String> = root.extensions_required.iter().filter(unknown).cloned().collect();
         if !required.is_empty() {
             return Err(Fault::extensions(required));
         }
         for name in &root.extensions_required {
-            if name != "KHR_mesh_quantization" {
+            if harmless(name) && name != "KHR_mesh_quantization" && name != INSTANCING {
                 self.gathered.note(format!("the file requires {name}: its materials and pictures are not read"));
             }
         }
-        for name in root.extensions_used.iter().filter(|name| !harmless(name)) {
-            self.gathered.note(format!("the file uses {name}, which was passed over"));
+        let used: BTreeSet<&String> = root.extensions_used.iter().chain(&root.extensions_required).collect();
+        for name in used.into_iter().filter(|name| !harmless(name)) {
+            let instead = if name.starts_with("KHR_lights_") { ": a scene has lights of its own" } else { "" };
+            self.gathered.note(format!("the file uses {name}, which was passed over{instead}"));
         }
         Ok(())
     }
@@ -84,10 +104,13 @@ impl Reader {
             if placed.node.skin.is_some() {
                 self.gathered.note(format!("`{name}` has a skin: it is shown as modelled, without its bones"));
             }
-            if placed.is_flat() {
-                self.gathered.note(format!("`{name}` is scaled to nothing and was skipped"));
-            } else {
-                let transform = placed.transform();
+            let places = placed.places(accessors).map_err(|fault| fault.within(&format!("node `{name}`")))?;
+            let flat = places.iter().filter(|place| place.matrix3.determinant() == 0.0).count();
+            if flat > 0 {
+                let what = if places.len() == 1 { String::new() } else { format!("{} of ", count(flat, "instance")) };
+                self.gathered.note(format!("{what}`{name}` is scaled to nothing and was skipped"));
+            }
+            for &transform in places.iter().filter(|place| place.matrix3.determinant() != 0.0) {
                 for part in self.mesh(mesh, root, accessors)? {
                     self.placements.push(Placement { name: name.clone(), part, transform });
                 }
@@ -142,6 +165,7 @@ impl Reader {
         let mut file = self.gathered.finish()?;
         file.placements = self.placements;
         file.cameras = self.cameras;
+        file.is_in_metres = true;
         Ok(file)
     }
 }

@@ -5,10 +5,14 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 use super::super::error::Fault;
 use super::super::gather::in_range;
 use super::super::{FileCamera, Projection};
-use super::json::{Camera, Node, Root};
+use super::accessor::Accessors;
+use super::json::{Camera, InstanceAttributes, Node, Root};
 
 /// From y upwards to z upwards: (x, y, z) becomes (x, −z, y).
-const TURN: DMat3 = DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y);
+pub const Z_UP: DMat3 = DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y);
+
+/// How far the last row of a matrix may be from [0, 0, 0, 1].
+const ROUNDING: f64 = 1e-5;
 
 /// A node with its place in the world.
 pub(super) struct Placed<'a> {
@@ -64,21 +68,27 @@ fn roots(root: &Root) -> Result<Vec<usize>, Fault> {
 fn local(node: &Node) -> Result<DAffine3, String> {
     if let Some(matrix) = node.matrix {
         let [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = matrix;
-        if [d, h, l, p] != [0.0, 0.0, 0.0, 1.0] {
+        // Products of matrices leave roundings.
+        if !([d, h, l, p - 1.0].iter().all(|rest| rest.abs() <= ROUNDING)) {
             return Err(format!("the last row of its matrix is {:?}, expected [0, 0, 0, 1]", [d, h, l, p]));
         }
         let matrix3 = DMat3::from_cols(DVec3::new(a, b, c), DVec3::new(e, f, g), DVec3::new(i, j, k));
         return Ok(DAffine3 { matrix3, translation: DVec3::new(m, n, o) });
     }
-    let rotation = DQuat::from_array(node.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]));
+    let identity = [0.0, 0.0, 0.0, 1.0];
+    moved(node.translation.unwrap_or([0.0; 3]), node.rotation.unwrap_or(identity), node.scale.unwrap_or([1.0; 3]))
+}
+
+/// Scaled, then turned by a quaternion, then moved.
+pub(super) fn moved(translation: [f64; 3], rotation: [f64; 4], scale: [f64; 3]) -> Result<DAffine3, String> {
+    let rotation = DQuat::from_array(rotation);
     // Files round; a unit quaternion is meant.
     let length = rotation.length();
     if !(length > 0.0 && length.is_finite()) {
         return Err(format!("its rotation {:?} is no quaternion of length 1", rotation.to_array()));
     }
-    let scale = DMat3::from_diagonal(DVec3::from_array(node.scale.unwrap_or([1.0; 3])));
-    let matrix3 = DMat3::from_quat(rotation * (1.0 / length)) * scale;
-    Ok(DAffine3 { matrix3, translation: DVec3::from_array(node.translation.unwrap_or([0.0; 3])) })
+    let matrix3 = DMat3::from_quat(rotation * (1.0 / length)) * DMat3::from_diagonal(DVec3::from_array(scale));
+    Ok(DAffine3 { matrix3, translation: DVec3::from_array(translation) })
 }
 
 impl Placed<'_> {
@@ -86,13 +96,31 @@ impl Placed<'_> {
         self.node.name.clone().unwrap_or_else(|| format!("node {}", self.index))
     }
 
-    /// Nothing that it shows would have a volume or both of its sides.
-    pub fn is_flat(&self) -> bool {
-        self.global.matrix3.determinant() == 0.0
+    pub fn transform(&self) -> DAffine3 {
+        turned(self.global)
     }
 
-    pub fn transform(&self) -> DAffine3 {
-        DAffine3 { matrix3: TURN * self.global.matrix3, translation: TURN * self.global.translation }
+    /// Where the mesh of the node stands: once, or at each of its instances.
+    pub fn places(&self, accessors: &Accessors) -> Result<Vec<DAffine3>, Fault> {
+        let Some(instancing) = &self.node.extensions.instancing else { return Ok(vec![self.transform()]) };
+        let InstanceAttributes { translation, rotation, scale } = instancing.attributes;
+        let Some(some) = translation.or(rotation).or(scale) else { return Ok(vec![self.transform()]) };
+        let count = accessors.count(some)?;
+        let translations = values(accessors, translation, count)?;
+        let rotations = values(accessors, rotation, count)?;
+        let scales = values(accessors, scale, count)?;
+        let place = |index: usize| {
+            let at = |values: &[[f64; 3]], usual| values.get(index).copied().unwrap_or(usual);
+            let rotation = rotations.get(index).copied().unwrap_or([0.0, 0.0, 0.0, 1.0]);
+            let local = moved(at(&translations, [0.0; 3]), rotation, at(&scales, [1.0; 3]));
+            let global = self.global * local.map_err(|message| Fault::new(format!("instance {index}: {message}")))?;
+            in_range("a number of its transform", global.translation).map_err(Fault::new)?;
+            match global.is_finite() {
+                true => Ok(turned(global)),
+                false => Err(Fault::new(format!("instance {index}: its transform is not finite"))),
+            }
+        };
+        (0..count).map(place).collect()
     }
 
     /// A camera looks along −z of its node, y is up; scale does not matter. `None` if the transform leaves no
@@ -107,6 +135,25 @@ impl Placed<'_> {
         let node = self.node.name.clone();
         Ok(direction.zip(up).map(|(direction, up)| FileCamera { name, node, position, direction, up, projection }))
     }
+}
+
+/// From the axes of the file to ours.
+fn turned(global: DAffine3) -> DAffine3 {
+    DAffine3 { matrix3: Z_UP * global.matrix3, translation: Z_UP * global.translation }
+}
+
+/// An attribute of instances, one value each; none where they do not have it.
+fn values<const N: usize>(
+    accessors: &Accessors,
+    accessor: Option<usize>,
+    count: usize,
+) -> Result<Vec<[f64; N]>, Fault> {
+    let Some(accessor) = accessor else { return Ok(Vec::new()) };
+    let found = accessors.count(accessor)?;
+    if found != count {
+        return Err(Fault::new(format!("accessor {accessor} has {found} elements for {count} instances")));
+    }
+    accessors.vectors(accessor, 0..count)
 }
 
 fn projection(camera: &Camera) -> Result<Projection, String> {

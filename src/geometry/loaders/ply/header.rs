@@ -72,12 +72,18 @@ impl Header {
     pub fn parse(bytes: &[u8]) -> Result<Self, Fault> {
         let mut encoding = None;
         let mut elements: Vec<Element> = Vec::new();
+        // How the first line ends tells: after a carriage return alone the body's first byte may be anything.
+        let first = bytes.iter().position(|b| matches!(b, b'\r' | b'\n')).unwrap_or(0);
+        let end = match bytes.get(first..) {
+            Some([b'\r', next, ..]) if *next != b'\n' => b'\r',
+            _ => b'\n',
+        };
         let mut at = 0;
         let mut number = 0;
         loop {
             number += 1;
             let rest = bytes.get(at..).unwrap_or_default();
-            let Some(length) = rest.iter().position(|&b| b == b'\n') else {
+            let Some(length) = rest.iter().position(|&b| b == end) else {
                 return Err(Fault::at_line(number, "the file ends before `end_header`"));
             };
             at += length + 1;

@@ -2,7 +2,8 @@
 //!
 //! Source: G. Turk, "The PLY polygon file format" (Stanford, 1994). Of `vertex` the properties x, y, z, then nx, ny, nz
 //! and u, v (also s, t or texture_u, texture_v) are read; of `face` the list vertex_indices or vertex_index, counted
-//! from 0. Other elements and properties are passed over. The file is one part, without a material.
+//! from 0; of `tristrips` the same, where −1 begins a new strip. Other elements and properties are passed over. The file
+//! is one part, without a material.
 
 mod body;
 mod header;
@@ -12,16 +13,18 @@ use glam::{Vec2, Vec3};
 use super::error::Fault;
 use super::gather::{Gathered, count, position};
 use super::polygon::Polygons;
+use super::text::{decoded, text};
 use super::{MeshFile, Part, Triangles};
 use body::{Binary, Body, Text};
 use header::{Element, Encoding, Header};
 
 pub(super) fn read(bytes: &[u8], stem: &str) -> Result<MeshFile, Fault> {
+    let bytes = &*decoded(bytes);
     let header = Header::parse(bytes)?;
     let layout = Layout::of(&header)?;
     match header.encoding {
         Encoding::Ascii => {
-            let text = String::from_utf8_lossy(bytes.get(header.bytes..).unwrap_or_default());
+            let text = text(bytes.get(header.bytes..).unwrap_or_default());
             read_body(Text::new(&text, header.lines), &header, &layout, stem)
         }
         encoding => read_body(Binary::new(bytes, header.bytes, encoding), &header, &layout, stem),
@@ -49,15 +52,15 @@ struct Layout {
     has_normals: bool,
     has_uvs: bool,
     vertices: usize,
-    /// Which property of a face is its list of vertices.
-    list: usize,
+    /// Which property of a face is its list of vertices, and which of a set of strips.
+    list: Option<usize>,
+    strips: Option<usize>,
 }
 
 impl Layout {
     fn of(header: &Header) -> Result<Self, Fault> {
         let absent = |name: &str| Fault::new(format!("the header has no element `{name}`"));
         let vertex = header.element("vertex").ok_or_else(|| absent("vertex"))?;
-        let face = header.element("face").ok_or_else(|| absent("face"))?;
         let slot = |name: &str| NAMES.iter().position(|names| names.contains(&name)).unwrap_or(PASSED);
         let slots: Vec<usize> = vertex
             .properties
@@ -69,23 +72,37 @@ impl Layout {
             let message = "the element `vertex` lacks one of the properties `x`, `y`, `z`";
             return Err(Fault::at_line(vertex.line, message));
         }
-        let is_list = |name: &str| matches!(name, "vertex_indices" | "vertex_index");
-        let list = face.properties.iter().position(|property| is_list(&property.name) && property.length.is_some());
-        let Some(list) = list else {
-            return Err(Fault::at_line(face.line, "the element `face` has no list `vertex_indices` or `vertex_index`"));
-        };
-        if face.properties.get(list).is_some_and(|property| !property.value.is_integer()) {
-            return Err(Fault::at_line(face.line, "the vertices of a face are not of an integer type"));
+        let [list, strips] =
+            [header.element("face"), header.element("tristrips")].map(|element| element.map(list_of).transpose());
+        let (list, strips) = (list?, strips?);
+        if list.is_none() && strips.is_none() {
+            return Err(absent("face"));
         }
         let (has_normals, has_uvs) = (has(&[3, 4, 5]), has(&[6, 7]));
-        Ok(Self { slots, has_normals, has_uvs, vertices: vertex.count, list })
+        Ok(Self { slots, has_normals, has_uvs, vertices: vertex.count, list, strips })
     }
+}
+
+/// Which property of an element is its list of vertices.
+fn list_of(element: &Element) -> Result<usize, Fault> {
+    let fault = |message: String| Fault::at_line(element.line, message);
+    let is_list = |name: &str| matches!(name, "vertex_indices" | "vertex_index");
+    let name = &element.name;
+    let list = element.properties.iter().position(|property| is_list(&property.name) && property.length.is_some());
+    let Some(list) = list else {
+        return Err(fault(format!("the element `{name}` has no list `vertex_indices` or `vertex_index`")));
+    };
+    if element.properties.get(list).is_some_and(|property| !property.value.is_integer()) {
+        return Err(fault(format!("the vertices of a {name} are not of an integer type")));
+    }
+    Ok(list)
 }
 
 fn read_body(mut body: impl Body, header: &Header, layout: &Layout, stem: &str) -> Result<MeshFile, Fault> {
     let mut gathered = Gathered::default();
     let mut triangles = Triangles::default();
     let mut faces = Polygons::default();
+    let mut strips = Vec::new();
     for element in &header.elements {
         match element.name.as_str() {
             "vertex" => read_vertices(&mut body, element, layout, &mut triangles)?,
@@ -95,6 +112,7 @@ fn read_body(mut body: impl Body, header: &Header, layout: &Layout, stem: &str) 
                     gathered.note(format!("{} of fewer than 3 vertices skipped", count(thin, "face")));
                 }
             }
+            "tristrips" => read_strips(&mut body, element, layout, &mut strips)?,
             _ => pass_over(&mut body, element)?,
         }
     }
@@ -102,6 +120,7 @@ fn read_body(mut body: impl Body, header: &Header, layout: &Layout, stem: &str) 
         gathered.note(note);
     }
     triangles.indices = faces.triangles(&triangles.positions);
+    triangles.indices.extend(strips);
     gathered.add(Part { name: stem.to_owned(), material: None, triangles });
     gathered.finish_in_place()
 }
@@ -155,7 +174,7 @@ fn read_faces(body: &mut impl Body, element: &Element, layout: &Layout, faces: &
                 None => {
                     body.number(property.value)?;
                 }
-                Some(length) if place == layout.list => {
+                Some(length) if Some(place) == layout.list => {
                     let size = list_length(body, length)?;
                     for _ in 0..size {
                         let vertex = body.number(property.value)?;
@@ -183,6 +202,54 @@ fn read_faces(body: &mut impl Body, element: &Element, layout: &Layout, faces: &
         body.end_row()?;
     }
     Ok(thin)
+}
+
+/// The triangles of strips, each of which shares an edge with the one before and turns the other way along the list. What
+/// names a vertex twice in a row only joins strips.
+fn read_strips(
+    body: &mut impl Body,
+    element: &Element,
+    layout: &Layout,
+    triangles: &mut Vec<[u32; 3]>,
+) -> Result<(), Fault> {
+    for row in 0..element.count {
+        body.begin_row(element, row)?;
+        for (place, property) in element.properties.iter().enumerate() {
+            match property.length {
+                None => {
+                    body.number(property.value)?;
+                }
+                Some(length) if Some(place) == layout.strips => {
+                    let mut strip: Vec<u32> = Vec::new();
+                    for _ in 0..list_length(body, length)? {
+                        let vertex = body.number(property.value)?;
+                        if vertex == -1.0 {
+                            strip.clear();
+                            continue;
+                        }
+                        if !(vertex >= 0.0 && vertex < layout.vertices as f64 && vertex <= u32::MAX.into()) {
+                            let message = format!(
+                                "strip {row} names vertex {vertex}, but the file has {} (counted from 0)",
+                                layout.vertices
+                            );
+                            return Err(body.fault(message));
+                        }
+                        strip.push(vertex as u32);
+                        let [.., a, b, c] = strip[..] else { continue };
+                        let triangle = if strip.len() % 2 == 1 { [a, b, c] } else { [a, c, b] };
+                        if a != b && b != c && c != a {
+                            triangles.push(triangle);
+                        }
+                    }
+                }
+                Some(_) => {
+                    pass_list(body, property)?;
+                }
+            }
+        }
+        body.end_row()?;
+    }
+    Ok(())
 }
 
 fn list_length(body: &mut impl Body, kind: header::Type) -> Result<u32, Fault> {

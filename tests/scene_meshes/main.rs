@@ -1,6 +1,10 @@
 //! Mesh files in scenes: which parts stand where, of which material, seen by whose camera.
 
+#[path = "../common/mod.rs"]
 mod common;
+
+mod bodies;
+mod units;
 
 use glam::Vec3;
 use spectrel::geometry::{Ray, Shape};
@@ -208,7 +212,7 @@ fn lights_of_which_nothing_arrives_are_told() {
     assert!(common::scene(&text, &Overrides::default()).warnings[0].contains("infinitely far away"));
 }
 
-/// A glTF file with one triangle and a camera that looks along +y from (1, −5, 2) of our axes.
+/// A glTF file with one triangle and a camera that looks along +y from (1, −5, 2) of our axes, in metres.
 fn filmed() -> (String, Vec<u8>) {
     let corners = [[0.0f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     let bytes: Vec<u8> = corners.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
@@ -232,7 +236,7 @@ fn a_files_camera_is_ours() {
     let scene = camera("file = \"tri.gltf\"\n").unwrap();
     let middle = scene.camera.ray(20.0, 10.0, || [0.5, 0.5]);
     assert!(
-        (middle.origin - Vec3::new(1.0, -5.0, 2.0)).length() < 1e-6 && (middle.direction - Vec3::Y).length() < 1e-6
+        (middle.origin - Vec3::new(1e3, -5e3, 2e3)).length() < 1e-3 && (middle.direction - Vec3::Y).length() < 1e-6
     );
     // The upper edge is half of yfov above the middle.
     let top = scene.camera.ray(20.0, 0.0, || [0.5, 0.5]);
