@@ -17,7 +17,7 @@ pub struct EnvironmentImage {
     pub file: Spanned<String>,
     /// The light that is white in the file; D65 unless given.
     pub illuminant: Option<Spanned<LightSpectrum>>,
-    /// cd/m² of a texel that is white, RGB (1, 1, 1); 1 unless given.
+    /// cd/m² of a texel that is white, RGB (1, 1, 1); the `whiteLuminance` of an EXR, such as spectrel's own, or 1 unless given.
     pub scale: Option<Number>,
     /// Instead of `scale`: the mean over all directions, cd/m², by the Y of the file's RGB.
     pub luminance: Option<Number>,
@@ -32,14 +32,23 @@ pub struct EnvironmentImage {
 #[serde(rename_all = "kebab-case")]
 pub enum ColorSpaceName {
     /// Of sRGB and ITU-R BT.709.
+    #[serde(alias = "rec709")]
     Srgb,
-    /// Of Display P3.
+    /// Of Display P3; `p3` too.
+    #[serde(alias = "p3")]
     DisplayP3,
     /// Of ITU-R BT.2020.
+    #[serde(alias = "bt2020")]
     Rec2020,
-    /// AP1, with the white of ACES.
-    #[serde(rename = "acescg")]
+    /// Of Adobe RGB (1998); `adobe` too.
+    #[serde(alias = "adobe")]
+    AdobeRgb,
+    /// AP1, with the white of ACES; `ap1` too.
+    #[serde(rename = "acescg", alias = "ap1")]
     AcesCg,
+    /// AP0, with the white of ACES; `ap0` too.
+    #[serde(rename = "aces2065-1", alias = "ap0")]
+    Aces2065,
 }
 
 /// A picture on a surface (PNG, EXR or Radiance HDR), u to its right and v upwards. Spheres have u around z and v from bottom to top by
@@ -50,7 +59,8 @@ pub enum ColorSpaceName {
 pub struct ImageTexture {
     /// A file beside the scene file, or beside the material's own.
     pub image: Spanned<String>,
-    /// How numbers become colours: `srgb` for a PNG and `linear` for the others unless given. Roughness is data and has none.
+    /// How numbers become colours: as the file says unless given; `srgb` for a PNG that says nothing, `linear` for the others.
+    /// Roughness is data and has none.
     pub color_space: Option<Spanned<TextureSpaceName>>,
     /// How often the picture stands beside and above itself over u and v from 0 to 1; [1, 1] unless given.
     pub scale: Option<Numbers<2>>,
@@ -63,9 +73,25 @@ pub struct ImageTexture {
 #[serde(rename_all = "kebab-case")]
 pub enum TextureSpaceName {
     /// Codes by the sRGB curve.
+    #[serde(alias = "rec709")]
     Srgb,
     /// In proportion to light; of sRGB primaries unless the file says others.
     Linear,
+    /// Codes of a PNG by the sRGB curve, primaries of Display P3; `p3` too.
+    #[serde(alias = "p3")]
+    DisplayP3,
+    /// Codes of a PNG by the curve of ITU-R BT.2020, and its primaries.
+    #[serde(alias = "bt2020")]
+    Rec2020,
+    /// Codes of a PNG by the power 2.2 (563/256), primaries of Adobe RGB (1998); `adobe` too.
+    #[serde(alias = "adobe")]
+    AdobeRgb,
+    /// In proportion to light, of AP1 with the white of ACES; `ap1` too.
+    #[serde(rename = "acescg", alias = "ap1")]
+    AcesCg,
+    /// In proportion to light, of AP0 with the white of ACES; `ap0` too.
+    #[serde(rename = "aces2065-1", alias = "ap0")]
+    Aces2065,
 }
 
 /// What is beyond the edges of a picture.

@@ -108,11 +108,23 @@ pub struct Chromaticities {
 const SAME_XY: f64 = 2e-3;
 
 impl Chromaticities {
+    /// X, Y and Z themselves. Their white ⅓ is that of the numbers, and no light to adapt from.
+    pub const XYZ: Self = Self { primaries_xy: [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]], white_xy: [1.0 / 3.0, 1.0 / 3.0] };
+
+    /// ACES2065-1: AP0 primaries, the ACES white (SMPTE ST 2065-1:2012). Its green and its blue are no light.
+    pub const ACES2065_1: Self =
+        Self { primaries_xy: [[0.7347, 0.2653], [0.0, 1.0], [0.0001, -0.0770]], white_xy: [0.32168, 0.33767] };
+
+    /// Adobe RGB (1998), version 2005-05.
+    pub const ADOBE_RGB: Self =
+        Self { primaries_xy: [[0.64, 0.33], [0.21, 0.71], [0.15, 0.06]], white_xy: [0.3127, 0.3290] };
+
     /// Linear RGB to XYZ (SMPTE RP 177-1993): the primaries, scaled so that (1, 1, 1) is the white, Y = 1. `None` if they
     /// are no three colours, or make no white.
     pub fn xyz_from_rgb(&self) -> Option<Matrix3> {
-        // A primary without luminance, as in files that hold XYZ, has no Y to divide by.
-        let xyz = |[x, y]: [f64; 2]| if y == 0.0 { [x, y, 1.0 - x] } else { xyz_from_xy([x, y]) };
+        // A primary without luminance, as in files that hold XYZ, has no Y to divide by, and with less than none, as the
+        // blue of ACES2065-1, it would be turned around.
+        let xyz = |[x, y]: [f64; 2]| if y <= 0.0 { [x, y, 1.0 - x - y] } else { xyz_from_xy([x, y]) };
         let primaries = Matrix3(self.primaries_xy.map(xyz)).transposed();
         let scales = primaries.inverse()?.apply(xyz_from_xy(self.white_xy));
         let matrix = primaries.after(&Matrix3::diagonal(scales));
@@ -121,14 +133,19 @@ impl Chromaticities {
 
     /// The space that these are the chromaticities of.
     pub fn space(&self) -> Option<RgbSpace> {
-        let points = |c: Chromaticities| c.primaries_xy.into_iter().chain([c.white_xy]).flatten();
-        let same =
-            |space: &RgbSpace| points(space.chromaticities()).zip(points(*self)).all(|(a, b)| (a - b).abs() < SAME_XY);
-        RgbSpace::ALL.into_iter().find(same)
+        RgbSpace::ALL.into_iter().find(|space| self.are(&space.chromaticities()))
     }
 
-    /// Linear RGB of these to linear RGB of a space, white to white.
+    fn are(&self, others: &Self) -> bool {
+        let points = |c: &Self| c.primaries_xy.into_iter().chain([c.white_xy]).flatten();
+        points(others).zip(points(self)).all(|(a, b)| (a - b).abs() < SAME_XY)
+    }
+
+    /// Linear RGB of these to linear RGB of a space, white to white; XYZ as it is.
     pub fn to(&self, space: RgbSpace) -> Option<Matrix3> {
+        if self.are(&Self::XYZ) {
+            return Some(space.rgb_from_xyz());
+        }
         let adapted = bradford(xyz_from_xy(self.white_xy), space.white_xyz());
         Some(space.rgb_from_xyz().after(&adapted).after(&self.xyz_from_rgb()?))
     }
@@ -200,6 +217,26 @@ mod tests {
         }
         assert_eq!(RgbSpace::from_name("Rec.709"), Some(RgbSpace::Srgb));
         assert_eq!(RgbSpace::from_name("adobe"), None);
+    }
+
+    #[test]
+    fn colours_of_wide_primaries_are_those_of_their_standards() {
+        let seen = |stated: Chromaticities, rgb| stated.to(RgbSpace::Srgb).expect("colours").apply(rgb);
+        let near = |found: [f64; 3], expected: [f64; 3]| found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 6e-4);
+        let aces = seen(Chromaticities::ACES2065_1, [0.5, 0.4, 0.2]);
+        assert!(near(aces, [0.730, 0.392, 0.165]), "{aces:?}");
+        assert!(near(seen(Chromaticities::ACES2065_1, [1.0; 3]), [1.0; 3]));
+        // XYZ has no white to adapt from: what sRGB wrote comes back.
+        let xyz = RgbSpace::Srgb.xyz_from_rgb().apply([0.60, 0.20, 0.10]);
+        assert!(near(seen(Chromaticities::XYZ, xyz), [0.60, 0.20, 0.10]));
+        let p3 = [200.0, 60.0, 40.0].map(|code| decode_srgb(code / 255.0));
+        let shown = seen(RgbSpace::DisplayP3.chromaticities(), p3);
+        assert!(near(shown, [0.697, 0.023, 0.008]), "{shown:?}");
+        // Its blue turned around, or its white outside of them: no colours.
+        let [red, green, blue] = RgbSpace::Srgb.primaries_xy();
+        let odd = |primaries_xy, white_xy| Chromaticities { primaries_xy, white_xy }.to(RgbSpace::Srgb);
+        assert_eq!(odd([red, green, green], [0.3127, 0.3290]), None);
+        assert_eq!(odd([red, green, blue], [0.7, 0.2]), None);
     }
 
     #[test]

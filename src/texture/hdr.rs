@@ -7,17 +7,13 @@
 //! times (and the next such 256 n times).
 
 use super::error::{Fault, array, room_for};
-use super::{Encoding, Raster, Samples};
+use super::{Raster, Samples};
 use crate::spectrum::Chromaticities;
 use std::fs::File;
 use std::io::Read;
 
 /// What else a file may be called for: nobody writes more before a picture.
 const LONGEST_HEADER: usize = 1 << 16;
-
-/// X, Y and Z themselves, as primaries.
-const XYZ: Chromaticities =
-    Chromaticities { primaries_xy: [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]], white_xy: [1.0 / 3.0, 1.0 / 3.0] };
 
 pub(super) fn read(mut file: File, beside: usize) -> Result<Raster, Fault> {
     let mut bytes = Vec::new();
@@ -37,19 +33,26 @@ fn decode(bytes: &[u8], beside: usize) -> Result<Raster, Fault> {
         let y = if header.from_bottom { height as usize - 1 - y } else { y };
         for (x, texel) in row.iter().enumerate() {
             let x = if header.from_right { width - 1 - x } else { x };
-            pixels[y * width + x] = color(*texel).map(|channel| channel * header.factor);
+            let color = color(*texel);
+            pixels[y * width + x] = std::array::from_fn(|channel| color[channel] * header.factors[channel]);
         }
     }
-    let mut notes = Vec::new();
-    if header.factor != 1.0 {
-        notes.push(format!("its header states an exposure: its values are multiplied by {}", header.factor));
-    }
+    let notes = match header.factors {
+        [1.0, 1.0, 1.0] => Vec::new(),
+        [r, g, b] if r == g && g == b => {
+            vec![format!("its header states an exposure: its values are multiplied by {r}")]
+        }
+        [r, g, b] => {
+            vec![format!("its header states a colour correction: R, G and B are multiplied by {r}, {g} and {b}")]
+        }
+    };
     Ok(Raster {
         width: width as u32,
         height: height as u32,
         samples: Samples::Rgb(pixels),
-        encoding: Encoding::Linear,
+        curves: None,
         chromaticities: header.chromaticities,
+        white_luminance: None,
         notes,
     })
 }
@@ -66,8 +69,8 @@ struct Header {
     size: [u64; 2],
     from_bottom: bool,
     from_right: bool,
-    /// What brings the values back to the scene's: one over all exposures stated.
-    factor: f32,
+    /// What brings R, G and B back to the scene's: one over all exposures and colour corrections stated.
+    factors: [f32; 3],
     chromaticities: Option<Chromaticities>,
 }
 
@@ -75,27 +78,37 @@ fn header(input: &mut Input) -> Result<Header, Fault> {
     if !input.line()?.starts_with("#?") {
         return Err(Fault::new("this is no Radiance HDR: it does not begin with #?RADIANCE"));
     }
-    let (mut exposure, mut chromaticities) = (1.0f64, None);
+    let (mut exposures, mut chromaticities) = ([1.0f64; 3], None);
     loop {
         let line = input.line()?;
         let (key, value) = line.split_once('=').unwrap_or((&line, ""));
         match (key.trim(), value.trim()) {
             ("", _) => break,
             ("FORMAT", "32-bit_rle_rgbe") => {}
-            ("FORMAT", "32-bit_rle_xyze") => chromaticities = Some(XYZ),
+            ("FORMAT", "32-bit_rle_xyze") => chromaticities = Some(Chromaticities::XYZ),
             ("FORMAT", other) => {
                 return Err(Fault::new(format!("the format `{other}` is not known: it is 32-bit_rle_rgbe")));
             }
-            ("EXPOSURE", value) => exposure *= value.parse::<f64>().map_err(|_| odd("EXPOSURE", value))?,
+            ("EXPOSURE", value) => {
+                let exposure = value.parse::<f64>().map_err(|_| odd("EXPOSURE", value))?;
+                multiply(&mut exposures, [exposure; 3]).ok_or_else(|| odd("EXPOSURE", value))?;
+            }
+            ("COLORCORR", value) => {
+                let correction = numbers(value).ok_or_else(|| odd("COLORCORR", value))?;
+                multiply(&mut exposures, correction).ok_or_else(|| odd("COLORCORR", value))?;
+            }
             ("PRIMARIES", value) => chromaticities = Some(primaries(value).ok_or_else(|| odd("PRIMARIES", value))?),
             _ => {}
         }
     }
-    if !(exposure > 0.0 && exposure.is_finite()) {
-        return Err(odd("EXPOSURE", exposure));
-    }
     let (size, from_bottom, from_right) = resolution(&input.line()?)?;
-    Ok(Header { size, from_bottom, from_right, factor: (1.0 / exposure) as f32, chromaticities })
+    Ok(Header { size, from_bottom, from_right, factors: exposures.map(|all| (1.0 / all) as f32), chromaticities })
+}
+
+/// `None` if the products are nothing that values can be divided by.
+fn multiply(products: &mut [f64; 3], by: [f64; 3]) -> Option<()> {
+    products.iter_mut().zip(by).for_each(|(product, by)| *product *= by);
+    products.iter().all(|product| *product > 0.0 && product.is_finite()).then_some(())
 }
 
 fn odd(key: &str, value: impl std::fmt::Display) -> Fault {
@@ -104,9 +117,13 @@ fn odd(key: &str, value: impl std::fmt::Display) -> Fault {
 
 /// Eight numbers: x and y of red, green, blue and white.
 fn primaries(value: &str) -> Option<Chromaticities> {
-    let numbers: Vec<f64> = value.split_whitespace().map(|number| number.parse().ok()).collect::<Option<_>>()?;
-    let [rx, ry, gx, gy, bx, by, wx, wy] = numbers.try_into().ok()?;
+    let [rx, ry, gx, gy, bx, by, wx, wy] = numbers(value)?;
     Some(Chromaticities { primaries_xy: [[rx, ry], [gx, gy], [bx, by]], white_xy: [wx, wy] })
+}
+
+fn numbers<const N: usize>(value: &str) -> Option<[f64; N]> {
+    let numbers = value.split_whitespace().map(|number| number.parse().ok());
+    numbers.collect::<Option<Vec<f64>>>()?.try_into().ok()
 }
 
 /// "-Y 512 +X 1024": size, and whether rows begin below or at the right.

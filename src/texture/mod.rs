@@ -5,13 +5,19 @@
 //! what a negative or an infinite one means is for the scene to say. It looks at the file's extension, not at its first
 //! bytes, so that an error can say what was expected.
 
+mod code_points;
+mod codes;
+mod curve;
 mod error;
 mod exr;
 mod hdr;
+mod icc;
 mod png;
 mod raster;
 mod texels;
 
+pub use codes::{Codes, Index};
+pub use curve::Curve;
 pub use error::TextureError;
 pub use raster::{Encoding, Raster, Samples};
 pub use texels::{Texels, Wrap};

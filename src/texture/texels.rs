@@ -4,6 +4,7 @@
 //! all over what it covers, so they already average the picture there, converge to the exact mean and blur nothing. A
 //! pyramid would be of use with few samples a pixel; a spectral picture takes many.
 
+use super::Index;
 use glam::Vec2;
 
 /// What lies beyond a picture's edges.
@@ -19,7 +20,10 @@ pub enum Wrap {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texels<T> {
     size: [u32; 2],
-    texels: Vec<T>,
+    /// What texels show.
+    values: Vec<T>,
+    /// Which of the values each texel shows; its own unless given.
+    index: Option<Index>,
     scale: Vec2,
     wrap: Wrap,
 }
@@ -27,17 +31,25 @@ pub struct Texels<T> {
 impl<T: Copy> Texels<T> {
     /// `texels` fill both sides of `size`, which are above 0.
     pub fn new(size: [u32; 2], texels: Vec<T>, scale: [f32; 2], wrap: Wrap) -> Self {
-        Self { size, texels, scale: Vec2::from_array(scale), wrap }
+        Self { size, values: texels, index: None, scale: Vec2::from_array(scale), wrap }
+    }
+
+    /// The same of a picture with few values, of which `index` names one for each texel.
+    pub fn indexed(size: [u32; 2], mut values: Vec<T>, index: Index, scale: [f32; 2], wrap: Wrap) -> Self {
+        let (used, first) = (index.used(values.len()), values[index.at(0)]);
+        values.iter_mut().zip(used).filter(|(_, used)| !used).for_each(|(value, _)| *value = first);
+        Self { size, values, index: Some(index), scale: Vec2::from_array(scale), wrap }
     }
 
     /// The same picture of other values.
     pub fn map<U>(self, value: impl Fn(T) -> U) -> Texels<U> {
-        let Self { size, texels, scale, wrap } = self;
-        Texels { size, texels: texels.into_iter().map(value).collect(), scale, wrap }
+        let Self { size, values, index, scale, wrap } = self;
+        Texels { size, values: values.into_iter().map(value).collect(), index, scale, wrap }
     }
 
+    /// Every value that a texel shows, and no other.
     pub fn all(&self) -> &[T] {
-        &self.texels
+        &self.values
     }
 
     /// The four texels around a point, with weights that sum to 1. v points up.
@@ -46,7 +58,10 @@ impl<T: Copy> Texels<T> {
         let [width, height] = self.size;
         let ([left, right], x) = self.neighbours(uv.x * self.scale.x, width);
         let ([top, bottom], y) = self.neighbours(1.0 - uv.y * self.scale.y, height);
-        let texel = |row: u32, column: u32| self.texels[row as usize * width as usize + column as usize];
+        let texel = |row: u32, column: u32| {
+            let texel = row as usize * width as usize + column as usize;
+            self.values[self.index.as_ref().map_or(texel, |index| index.at(texel))]
+        };
         [
             (texel(top, left), (1.0 - x) * (1.0 - y)),
             (texel(top, right), x * (1.0 - y)),

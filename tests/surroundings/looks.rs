@@ -2,11 +2,12 @@
 
 use super::Picture;
 use super::common::paper::{HEAD, check};
-use super::common::pictures::write_exr_with;
+use super::common::pictures::{write_exr, write_exr_with};
 use super::common::{film, mean, scene};
+use exr::prelude::{Image, SpecificChannels, Vec2, WritableImage};
 use spectrel::light::Environment;
 use spectrel::scene::{Needs, Overrides};
-use spectrel::spectrum::RgbSpace;
+use spectrel::spectrum::{Chromaticities, RgbSpace};
 use std::f64::consts::PI;
 
 /// A camera at the origin that looks one way.
@@ -133,10 +134,40 @@ fn files_of_xyz_are_seen_as_what_they_are() {
             white: v(third, third),
         });
     });
-    // Their white is that of equal energy; under it colours fitted for D65 are a little off.
-    let found =
-        seen(&format!("{}[environment.image]\nfile = {path:?}\nilluminant = \"E\"\n", looking([0.0, 1.0, 0.0])));
-    assert!(found.iter().zip(xyz).all(|(a, b)| (a / f64::from(b) - 1.0).abs() < 0.05), "{found:?}");
+    let found = seen(&format!("{}[environment.image]\nfile = {path:?}\n", looking([0.0, 1.0, 0.0])));
+    assert!(found.iter().zip(xyz).all(|(a, b)| (a / f64::from(b) - 1.0).abs() < 0.01), "{found:?}");
+}
+
+#[test]
+fn adobe_rgb_and_aces_are_named_and_a_white_in_the_file_is_its_scale() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("one.exr");
+    let look = |more: &str| format!("{}[environment.image]\nfile = {path:?}\n{more}", looking([0.0, 1.0, 0.0]));
+    let rgb = [0.3f32, 0.4, 0.2];
+    write_exr(&path, 1, &[rgb]);
+    for (name, stated) in [
+        ("adobe-rgb", Chromaticities::ADOBE_RGB),
+        ("adobe", Chromaticities::ADOBE_RGB),
+        ("ap0", Chromaticities::ACES2065_1),
+        ("aces2065-1", Chromaticities::ACES2065_1),
+        ("ap1", RgbSpace::AcesCg.chromaticities()),
+        ("p3", RgbSpace::DisplayP3.chromaticities()),
+    ] {
+        let linear = stated.to(RgbSpace::Srgb).expect("colours").apply(rgb.map(f64::from));
+        let expected = RgbSpace::Srgb.xyz_from_rgb().apply(linear);
+        let found = seen(&look(&format!("color_space = {name:?}\n")));
+        assert!(found.iter().zip(expected).all(|(a, b)| (a / b - 1.0).abs() < 0.01), "{name}: {found:?} {expected:?}");
+    }
+    let channels = SpecificChannels::rgb(|_: Vec2<usize>| (rgb[0], rgb[1], rgb[2]));
+    let mut image = Image::from_channels((1, 1), channels);
+    image.layer_data.attributes.white_luminance = Some(40.0);
+    let plain = seen(&look(""));
+    image.write().to_file(&path).expect("a file");
+    let (stated, asked) = (seen(&look("")), seen(&look("scale = 3\n")));
+    assert!((0..3).all(|i| (stated[i] / plain[i] / 40.0 - 1.0).abs() < 1e-4), "{stated:?} {plain:?}");
+    assert!((0..3).all(|i| (asked[i] / plain[i] / 3.0 - 1.0).abs() < 1e-4), "{asked:?} {plain:?}");
+    let said = scene(&look(""), &Overrides::default()).warnings;
+    assert!(said.iter().any(|warning| warning.contains("a white of 40 cd/m²")), "{said:?}");
 }
 
 #[test]
@@ -145,11 +176,14 @@ fn texels_that_no_light_has_are_counted_and_dark() {
     pixels[1] = [f32::NAN, 1.0, 1.0];
     pixels[2] = [-3.0, 1.0, 1.0];
     pixels[5] = [f32::INFINITY; 3];
+    pixels[6] = [7.0; 3];
     let sky = Picture::new(4, pixels);
     let scene = scene(&format!("{}{}", looking([0.0, 1.0, 0.0]), sky.environment("")), &Overrides::default());
-    let said = scene.warnings.iter().find(|warning| warning.contains("texels")).expect("a warning");
-    assert!(said.contains("3 of 8 texels") && said.contains("negative or not finite"), "{said}");
+    let said = scene.warnings.join("\n");
+    assert!(said.contains("2 of 8 texels have values that are negative or no numbers"), "{said}");
+    assert!(said.contains("1 of 8 texels are infinite: they count as the largest"), "{said}");
     assert!(matches!(&scene.lights.environment, Environment::Map(map) if map.chosen().is_finite()));
+    assert!(matches!(&scene.lights.environment, Environment::Map(map) if map.brightest() == 7.0));
     let xyz = mean(&film(&scene));
     assert!(xyz.iter().all(|value| value.is_finite()), "{xyz:?}");
 }

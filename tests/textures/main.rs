@@ -4,10 +4,12 @@
 mod common;
 
 use common::paper::{HEAD, check};
-use common::pictures::{hdr, write_exr, write_png};
+use common::pictures::{hdr, write_exr, write_png, write_png_with};
 use common::{film, mean, replicates, scene};
+use glam::Vec2;
 use png::{BitDepth, ColorType};
 use spectrel::scene::{Needs, Overrides, Physics};
+use spectrel::spectrum::{Chromaticities, RgbSpace, UpsampleTable, decode_srgb};
 use std::path::PathBuf;
 use tempfile::TempDir;
 
@@ -135,6 +137,65 @@ fn colours_of_a_picture_are_those_of_the_same_numbers() {
         let plain: Vec<u8> = rgb.iter().flat_map(|value| ((value * 65535.0f64).round() as u16).to_be_bytes()).collect();
         write_png(&path("b.png"), 1, ColorType::Rgb, BitDepth::Sixteen, &plain);
         same(look(&format!("{{ image = {:?}, color_space = \"linear\" }}", path("b.png"))), 0.015);
+    }
+}
+
+#[test]
+fn codes_of_a_png_are_the_colours_that_its_file_says() {
+    let (_folder, path) = folder();
+    let shape = "rectangle = { size = [9, 9] }";
+    let look = |source: &str| {
+        seen(&furnace([0.5, 0.0, 5.0], [0.5, 0.0, 0.0], &format!("diffuse.reflectance = {source}"), shape))
+    };
+    let check = |source: &str, linear: [f64; 3]| {
+        let (found, expected) = (look(source), look(&format!("{{ rgb = {linear:?} }}")));
+        // The table of spectra is off by up to ΔE 1 where a channel is next to nothing.
+        let largest = expected.into_iter().fold(0.0, f64::max);
+        let near = found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 0.01 * largest);
+        assert!(near, "{source}: {found:?} {expected:?}");
+    };
+    let png = path("a.png");
+    let write = |codes: &[u8], color, chunks: &[(&[u8; 4], Vec<u8>)]| {
+        write_png_with(&png, 1, color, BitDepth::Eight, codes, chunks);
+    };
+    let plain = format!("{{ image = {png:?} }}");
+    let named = |space: &str| format!("{{ image = {png:?}, color_space = {space:?} }}");
+    write(&[128], ColorType::Grayscale, &[(b"gAMA", 100_000u32.to_be_bytes().to_vec())]);
+    check(&plain, [128.0 / 255.0; 3]);
+    check(&named("srgb"), [0.2158605; 3]);
+    write(&[200, 60, 40], ColorType::Rgb, &[(b"cICP", vec![12, 13, 0, 1])]);
+    check(&plain, [0.6967, 0.0227, 0.0077]);
+    write(&[200, 60, 40], ColorType::Rgb, &[]);
+    check(&named("display-p3"), [0.6967, 0.0227, 0.0077]);
+    check(&named("p3"), [0.6967, 0.0227, 0.0077]);
+    check(&plain, [0.5776, 0.0452, 0.0212]);
+    write(&[150, 140, 120], ColorType::Rgb, &[]);
+    for (space, stated) in [("adobe", Chromaticities::ADOBE_RGB), ("ap0", Chromaticities::ACES2065_1)] {
+        let gamma = if space == "ap0" { 1.0 } else { 563.0 / 256.0 };
+        let light = [150.0, 140.0, 120.0].map(|code| libm::pow(code / 255.0, gamma));
+        check(&named(space), stated.to(RgbSpace::Srgb).expect("colours").apply(light));
+    }
+}
+
+/// What a picture of many texels and few colours shows is what its texels say, at each of them.
+#[test]
+fn a_large_png_is_kept_by_the_numbers_of_its_colours() {
+    let (_folder, path) = folder();
+    let code = |i: usize| [(i % 251) as u8, (i / 7 % 256) as u8, (i * i % 13) as u8];
+    let codes: Vec<u8> = (0..40 * 30).flat_map(code).collect();
+    write_png(&path("a.png"), 40, ColorType::Rgb, BitDepth::Eight, &codes);
+    let text = format!("diffuse.reflectance = {{ image = {:?} }}", path("a.png"));
+    let scene =
+        scene(&furnace([0.0, 0.0, 5.0], [0.0; 3], &text, "rectangle = { size = [9, 9] }"), &Overrides::default());
+    let shown = scene.patterns.values().find_map(|pattern| pattern.reflectance.as_ref()).expect("a picture");
+    let library = spectrel::spectrum::Library::default();
+    let table = UpsampleTable::for_reflectance(&library).expect("a table");
+    for i in (0..40 * 30).step_by(17) {
+        let linear = code(i).map(|code| decode_srgb(f64::from(f32::from(code) / 255.0)) as f32);
+        let at = Vec2::new(((i % 40) as f32 + 0.5) / 40.0, 1.0 - ((i / 40) as f32 + 0.5) / 30.0);
+        let around = shown.around(at);
+        let (tint, _) = around.into_iter().max_by(|a, b| a.1.total_cmp(&b.1)).expect("texels");
+        assert_eq!(tint, table.tint(linear), "{i}");
     }
 }
 

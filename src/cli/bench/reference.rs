@@ -2,7 +2,7 @@
 
 use crate::report::difference::Image;
 use crate::scene::{Scene, SceneError};
-use crate::spectrum::{Matrix3, RgbSpace, bradford};
+use crate::spectrum::{Chromaticities, Matrix3, RgbSpace, bradford};
 use crate::texture::{self, Raster};
 use exr::meta::MetaData;
 use exr::meta::attribute::AttributeValue;
@@ -34,6 +34,11 @@ impl File {
             .map_err(|error| SceneError::new(format!("--reference: {error}")))?;
         let meta = MetaData::read_from_file(path, false).map_err(|error| wrong(&error.to_string()))?;
         let header = meta.headers.first().ok_or_else(|| wrong("it holds nothing"))?;
+        let (data, display) = (header.data_window().size, header.shared_attributes.display_window.size);
+        if data != display {
+            let [part, whole] = [data, display].map(|size| format!("{} × {}", size.0, size.1));
+            return Err(wrong(&format!("it is a part of {part} pixels of a picture of {whole}")));
+        }
         let white = header.own_attributes.white_luminance;
         let white = white.ok_or_else(|| wrong("it does not say how bright its white is (`whiteLuminance`)"))?;
         Ok(Self {
@@ -65,7 +70,7 @@ impl File {
         let stated = self.raster.chromaticities.ok_or_else(|| error("it does not say what its colours are".into()))?;
         let scale = Matrix3::diagonal([self.white; 3]);
         // Primaries that are X, Y and Z themselves: nothing was done to the film's values.
-        if stated.primaries_xy == [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]] {
+        if stated.primaries_xy == Chromaticities::XYZ.primaries_xy {
             return Ok(scale);
         }
         let of_scene = &scene.picture.white_balance;

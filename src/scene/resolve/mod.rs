@@ -3,6 +3,7 @@
 mod around;
 mod bodies;
 mod camera;
+mod colors;
 mod covers;
 mod emission;
 mod materials;

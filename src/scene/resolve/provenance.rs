@@ -40,6 +40,14 @@ impl Resolver<'_> {
         self.warnings.push(format!("`{file}` states chromaticities that make no colours: taken for sRGB"));
     }
 
+    pub fn warn_of_endless(&mut self, file: &str, count: usize, all: usize) {
+        if count > 0 {
+            self.warnings.push(format!(
+                "`{file}`: {count} of {all} texels are infinite: they count as the largest value of the others"
+            ));
+        }
+    }
+
     /// Lights of which nothing arrives.
     pub fn warn_of_lost_light(&mut self, points: bool, far_lights: bool) {
         let scatters = |surface: &Surface| match surface {

@@ -44,13 +44,14 @@ impl Resolver<'_> {
     pub fn surroundings(&mut self, image: &EnvironmentImage) -> Result<Surroundings, SceneError> {
         let raster = self.raster(image)?;
         let size = [raster.width, raster.height];
+        let stated = raster.white_luminance;
         let colors = self.colors(raster, image);
         let table = UpsampleTable::for_radiance(self.library, colors.space)?;
         let [_, y, _] = colors.space.xyz_from_rgb().0;
         let luminance = |rgb: &[f32; 3]| (0..3).map(|i| y[i] * f64::from(rgb[i])).sum::<f64>().max(0.0) as f32;
         let luminances: Vec<f32> = colors.rgb.par_iter().map(luminance).collect();
         let mean = mean_over_sphere(size, &luminances);
-        let scale = self.scale(image, mean)?;
+        let scale = self.scale(image, mean, stated)?;
         self.check_brightness(image, &colors.rgb, scale)?;
         let tints = colors.rgb.par_iter().map(|rgb| table.tint(*rgb)).collect();
         let light = self.white(image, scale)?;
@@ -81,7 +82,7 @@ impl Resolver<'_> {
         let path = self.text.base().join(name);
         self.files.insert(path.clone());
         let raster = texture::read(&path, BESIDE).map_err(|error| self.text.error(&span, error))?;
-        if raster.encoding != Encoding::Linear {
+        if raster.encoding() != Encoding::Linear {
             let message = format!("`{name}` holds what a display shows, not the light of surroundings");
             return Err(self.text.error(&span, message).help("give an .exr or .hdr file"));
         }
@@ -101,7 +102,7 @@ impl Resolver<'_> {
     /// Its linear RGB in a space that has a table, without what light cannot have.
     fn colors(&mut self, raster: Raster, image: &EnvironmentImage) -> Colors {
         let name = image.file.get_ref();
-        let stated = image.color_space.map(|space| space.space().chromaticities()).or(raster.chromaticities);
+        let stated = image.color_space.map(ColorSpaceName::chromaticities).or(raster.chromaticities);
         let (space, matrix) = match stated.map(|stated| (stated.space(), stated.to(WIDE))) {
             None => (RgbSpace::Srgb, None),
             Some((Some(space), _)) => (space, None),
@@ -111,13 +112,14 @@ impl Resolver<'_> {
                 (RgbSpace::Srgb, None)
             }
         };
-        let mut rgb = raster.into_rgb();
+        let (mut rgb, endless) = raster.into_finite_rgb();
         let counts = rgb.par_iter_mut().map(|rgb| clean(rgb, &matrix));
         let [bad, outside] = counts.reduce(|| [0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
         let all = rgb.len();
+        self.warn_of_endless(name, endless, all);
         if bad > 0 {
             self.warnings.push(format!(
-                "`{name}`: {bad} of {all} texels have values that are negative or not finite: these count as 0"
+                "`{name}`: {bad} of {all} texels have values that are negative or no numbers: these count as 0"
             ));
         }
         if outside > 0 {
@@ -129,10 +131,18 @@ impl Resolver<'_> {
         Colors { space, rgb }
     }
 
-    /// cd/m² of white, given the mean of the file's Y.
-    fn scale(&self, image: &EnvironmentImage, mean: f64) -> Result<f64, SceneError> {
+    /// cd/m² of white, given the mean of the file's Y and what the file says.
+    fn scale(&mut self, image: &EnvironmentImage, mean: f64, stated: Option<f64>) -> Result<f64, SceneError> {
         match (&image.scale, &image.luminance) {
-            (None, None) => Ok(1.0),
+            (None, None) => {
+                let white = stated.unwrap_or(1.0);
+                if white != 1.0 {
+                    let name = image.file.get_ref();
+                    let note = format!("`{name}`: its header states a white of {white} cd/m², which is its scale");
+                    self.warnings.push(note);
+                }
+                Ok(white)
+            }
             (Some(scale), None) => self.not_negative(scale, "scale"),
             (None, Some(luminance)) => {
                 let value = self.not_negative(luminance, "luminance")?;
@@ -166,7 +176,7 @@ struct Colors {
     rgb: Vec<[f32; 3]>,
 }
 
-/// Takes from a texel what light cannot have. Counts 1 where it had a value that none has, and 1 where it was no mixture of
+/// Takes from a texel, which has no infinite value, what light cannot have. Counts 1 where it had a value that none has, and 1 where it was no mixture of
 /// the primaries that are computed with.
 fn clean(rgb: &mut [f32; 3], matrix: &Option<Matrix3>) -> [usize; 2] {
     let possible = |value: f32| if value >= 0.0 && value.is_finite() { value } else { 0.0 };
@@ -181,15 +191,4 @@ fn clean(rgb: &mut [f32; 3], matrix: &Option<Matrix3>) -> [usize; 2] {
     let outside = converted.iter().any(|value| *value < -1e-5 * largest);
     *rgb = converted.map(|value| value.max(0.0));
     [usize::from(bad), usize::from(outside)]
-}
-
-impl ColorSpaceName {
-    pub fn space(self) -> RgbSpace {
-        match self {
-            Self::Srgb => RgbSpace::Srgb,
-            Self::DisplayP3 => RgbSpace::DisplayP3,
-            Self::Rec2020 => RgbSpace::Rec2020,
-            Self::AcesCg => RgbSpace::AcesCg,
-        }
-    }
 }
