@@ -148,7 +148,8 @@ impl<'a> Words<'a> {
         }
     }
 
-    /// A normal, in whose place some programs write what their C library makes of 0/0: `-nan(ind)`, `-1.#IND`.
+    /// A normal, in whose place some programs write what their C library makes of 0/0: `-nan(ind)`,
+    /// `-1.#IND`.
     fn normal(&mut self) -> Result<Vec3, Fault> {
         let mut vector = [f32::NAN; 3];
         for slot in &mut vector {

@@ -1,5 +1,5 @@
-//! Texts as programs of all ages write them: with a byte order mark, in UTF-16, in Latin-1, with lines that end in a
-//! carriage return alone.
+//! Texts as programs of all ages write them: with a byte order mark, in UTF-16, in Latin-1, with
+//! lines that end in a carriage return alone.
 
 use std::borrow::Cow;
 
@@ -22,7 +22,8 @@ fn utf16(bytes: &[u8], word: fn([u8; 2]) -> u16) -> Vec<u8> {
     text.map(|letter| letter.unwrap_or(char::REPLACEMENT_CHARACTER)).collect::<String>().into_bytes()
 }
 
-/// A text whose lines end in line feeds. What is no UTF-8 is read as Latin-1, in which names keep their letters.
+/// A text whose lines end in line feeds. What is no UTF-8 is read as Latin-1, in which names keep
+/// their letters.
 pub(super) fn text(bytes: &[u8]) -> Cow<'_, str> {
     let text = match std::str::from_utf8(bytes) {
         Ok(text) => Cow::Borrowed(text),

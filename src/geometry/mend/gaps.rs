@@ -22,8 +22,8 @@ pub fn distances(mesh: &Triangles, share: f64) -> Vec<f64> {
     shares.into_iter().map(|share| share * size).collect()
 }
 
-/// Moves corners of open edges to the first one within a distance, and drops triangles that vanish by it. Returns how
-/// many were moved and how far at most; none if no two are so near.
+/// Moves corners of open edges to the first one within a distance, and drops triangles that vanish
+/// by it. Returns how many were moved and how far at most; none if no two are so near.
 pub fn weld_rims(mesh: &mut Triangles, distance: f64) -> Option<(usize, f32)> {
     let welded = weld(&mesh.positions);
     let open = open_corners(mesh, &welded);

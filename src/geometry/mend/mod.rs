@@ -1,9 +1,10 @@
-//! Clear bodies out of what programs export: parts joined, faces that are there twice dropped, windings made to agree,
-//! hairline gaps closed.
+//! Clear bodies out of what programs export: parts joined, faces that are there twice dropped,
+//! windings made to agree, hairline gaps closed.
 //!
-//! A dielectric needs an inside, and files lose theirs in few ways: a solid is cut into groups, every face is written a
-//! second time from behind, some faces are wound the other way, or the rims of parts differ by a rounding. Each step is
-//! tried only on triangles that do not enclose a volume yet, and what closes them is kept:
+//! A dielectric needs an inside, and files lose theirs in few ways: a solid is cut into groups,
+//! every face is written a second time from behind, some faces are wound the other way, or the rims
+//! of parts differ by a rounding. Each step is tried only on triangles that do not enclose a volume
+//! yet, and what closes them is kept:
 //!
 //! - `rim`: the edges at which a part is open, by which parts are known to belong together
 //! - `sheets`: fronts and backs of surfaces that are there twice
@@ -53,7 +54,8 @@ struct Attempt {
 }
 
 impl Triangles {
-    /// Several meshes as one. Normals that a part lacks are those of its triangles; texture coordinates are 0.
+    /// Several meshes as one. Normals that a part lacks are those of its triangles; texture
+    /// coordinates are 0.
     pub fn joined<'a>(parts: impl IntoIterator<Item = &'a Triangles>) -> Triangles {
         let parts: Vec<&Triangles> = parts.into_iter().collect();
         let smooth = parts.iter().any(|part| !part.normals.is_empty());
@@ -94,8 +96,8 @@ impl Triangles {
         own
     }
 
-    /// The body that these triangles mean, as far as it can be told, with gaps of up to a share of its size closed. All
-    /// indices must name corners.
+    /// The body that these triangles mean, as far as it can be told, with gaps of up to a share of
+    /// its size closed. All indices must name corners.
     pub fn mended(self, gap: f64) -> (Triangles, Mended) {
         let first = Attempt::of(self, Mended::default());
         if first.found.is_solid() {
@@ -187,7 +189,8 @@ fn whichever_way(corners: &[u32; 3], welded: &[u32]) -> [u32; 3] {
     corners
 }
 
-/// A triangle the other way round. Normals that went with its old winding are turned, at corners of its own.
+/// A triangle the other way round. Normals that went with its old winding are turned, at corners of
+/// its own.
 fn turn(mesh: &mut Triangles, triangle: usize) {
     let corners = mesh.indices[triangle];
     mesh.indices[triangle].swap(1, 2);

@@ -1,7 +1,8 @@
 //! Windings followed from triangle to triangle over edges that just two of them have.
 //!
-//! Such triangles are a patch. Where every way around comes back with the same winding, the patch has two sides, and
-//! the fewer triangles are turned to agree with the more; a patch with one side only (Möbius's) stays as it is.
+//! Such triangles are a patch. Where every way around comes back with the same winding, the patch
+//! has two sides, and the fewer triangles are turned to agree with the more; a patch with one side
+//! only (Möbius's) stays as it is.
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -29,8 +30,9 @@ pub fn agree(mesh: &mut Triangles) -> usize {
     turned.len()
 }
 
-/// Turns bodies of a closed mesh that face inwards and are in no other's box, where the mesh as a whole faces outwards
-/// (or the other way round, which whoever builds it mends); returns how many triangles that were.
+/// Turns bodies of a closed mesh that face inwards and are in no other's box, where the mesh as a
+/// whole faces outwards (or the other way round, which whoever builds it mends); returns how many
+/// triangles that were.
 pub fn face_outwards(mesh: &mut Triangles, volume: f64) -> usize {
     if is_one_piece(mesh) {
         return 0;
@@ -135,11 +137,12 @@ fn patches(mesh: &Triangles) -> Vec<Patch> {
     found
 }
 
-/// For each edge of a triangle the only other one that has it, and whether both run through it as neighbours should, in
-/// opposite directions.
+/// For each edge of a triangle the only other one that has it, and whether both run through it as
+/// neighbours should, in opposite directions.
 fn neighbours(mesh: &Triangles) -> Vec<[(u32, bool); 3]> {
     let welded = weld(&mesh.positions);
-    // Ends of an edge, then the triangle's number, which of its edges it is, and whether it runs upwards.
+    // Ends of an edge, then the triangle's number, which of its edges it is, and whether it runs
+    // upwards.
     let mut edges: Vec<(u32, u32, u32, u8, bool)> = Vec::with_capacity(3 * mesh.indices.len());
     for (triangle, corners) in (0..).zip(&mesh.indices) {
         let [a, b, c] = corners.map(|corner| welded[corner as usize]);

@@ -8,7 +8,8 @@ use super::whichever_way;
 use crate::geometry::Triangles;
 use crate::geometry::mesh::weld;
 
-/// The edges that an odd number of a mesh's triangles have, by the bits of their ends: the same in every mesh.
+/// The edges that an odd number of a mesh's triangles have, by the bits of their ends: the same in
+/// every mesh.
 #[derive(Clone, Debug, Default)]
 pub struct Rim {
     edges: HashSet<[[u32; 3]; 2]>,

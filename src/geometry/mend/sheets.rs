@@ -1,8 +1,8 @@
 //! One side of surfaces whose every face is there a second time from behind.
 //!
-//! The two need not be cut into the same triangles: a square's diagonal may be the other one. So the front is followed
-//! from edge to edge: of the triangles that come back along an edge, the neighbour is the one that does not fold back
-//! onto where one comes from.
+//! The two need not be cut into the same triangles: a square's diagonal may be the other one. So
+//! the front is followed from edge to edge: of the triangles that come back along an edge, the
+//! neighbour is the one that does not fold back onto where one comes from.
 
 use std::collections::HashMap;
 
@@ -14,7 +14,8 @@ use crate::geometry::mesh::weld;
 /// Sheets that lie on each other agree in area and volume to this, relatively.
 const ALIKE: f64 = 1e-6;
 
-/// The first of each pair of sheets that lie on each other, back to back; none if some have no such other.
+/// The first of each pair of sheets that lie on each other, back to back; none if some have no such
+/// other.
 pub fn fronts(mesh: &Triangles) -> Option<Triangles> {
     let welded = weld(&mesh.positions);
     let mut sheets = sheets(mesh, &welded);
@@ -97,7 +98,8 @@ fn sheets(mesh: &Triangles, welded: &[u32]) -> Vec<Sheet> {
     sheets
 }
 
-/// The cosine between two triangles at their common edge, as their apexes lie: 1 where one folds back onto the other.
+/// The cosine between two triangles at their common edge, as their apexes lie: 1 where one folds
+/// back onto the other.
 fn fold([from, to, apex, other]: [Vec3; 4]) -> f64 {
     let [from, to, apex, other] = [from, to, apex, other].map(|p| p.as_dvec3());
     let along = (to - from).normalize_or_zero();

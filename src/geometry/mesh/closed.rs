@@ -13,7 +13,8 @@ use crate::geometry::Triangles;
 pub struct Surroundings {
     /// Edges that triangles run through more often one way than the other.
     pub open_edges: usize,
-    /// Those of them that an odd number of triangles have: at the others all that is wrong are windings.
+    /// Those of them that an odd number of triangles have: at the others all that is wrong are
+    /// windings.
     pub gaps: usize,
     /// The middle of an open edge, of a gap if there is one.
     pub opening: Option<Vec3>,
@@ -147,7 +148,8 @@ fn scatter(position: &Vec3) -> usize {
     (hash ^ (hash >> 32)) as usize
 }
 
-/// About a corner of the mesh, so that a mesh far from the origin keeps its digits; and the least volume that is one.
+/// About a corner of the mesh, so that a mesh far from the origin keeps its digits; and the least
+/// volume that is one.
 fn volume(mesh: &Triangles) -> (f64, f64) {
     let Some(origin) = mesh.positions.first().map(|p| p.as_dvec3()) else { return (0.0, 0.0) };
     let (mut six, mut area2, mut farthest) = (0.0, 0.0, 0.0f64);

@@ -1,8 +1,9 @@
-//! Clear bodies from the parts of mesh files: what becomes one medium is joined before anyone asks whether it is closed.
+//! Clear bodies from the parts of mesh files: what becomes one medium is joined before anyone asks
+//! whether it is closed.
 //!
-//! A file may cut a solid into groups, materials or primitives. Those of one clear material that have open edges in
-//! common are one body; where opaque parts close it, their triangles are a part of its boundary, too, on which they lie
-//! in optical contact.
+//! A file may cut a solid into groups, materials or primitives. Those of one clear material that
+//! have open edges in common are one body; where opaque parts close it, their triangles are a part
+//! of its boundary, too, on which they lie in optical contact.
 
 use super::Resolver;
 use super::meshes::Loaded;
@@ -227,7 +228,8 @@ impl Workshop<'_> {
         self.body(open)
     }
 
-    /// Bodies of clear pieces that are not closed each by itself, with opaque ones that may be a part of their boundary.
+    /// Bodies of clear pieces that are not closed each by itself, with opaque ones that may be a
+    /// part of their boundary.
     fn joined_bodies(&self, lacking: &[usize], opaque: &[usize]) -> Result<Vec<Body>, Refused> {
         if let ([piece], []) = (lacking, opaque) {
             return Ok(vec![self.whole(*piece)?]);

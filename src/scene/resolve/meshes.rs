@@ -89,7 +89,8 @@ impl Resolver<'_> {
         self.loaded(&described.file, crease)
     }
 
-    /// From the lengths and axes of a file, turned to z upwards where its format says what is up, to the scene's.
+    /// From the lengths and axes of a file, turned to z upwards where its format says what is up,
+    /// to the scene's.
     fn file_to_scene(&self, described: &describe::MeshFile, loaded: &Loaded) -> Result<DAffine3, SceneError> {
         let scale = match &described.unit {
             None => self.file_unit(loaded),

@@ -32,7 +32,8 @@ const HARMLESS: [&str; 6] =
 /// One mesh at many places.
 const INSTANCING: &str = "EXT_mesh_gpu_instancing";
 
-/// Extensions that some exporters require though nothing of the meshes depends on them; they are passed over, and told.
+/// Extensions that some exporters require though nothing of the meshes depends on them; they are
+/// passed over, and told.
 const PASSED: [&str; 7] = [
     "KHR_lights_",
     "EXT_lights_",

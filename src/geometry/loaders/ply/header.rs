@@ -72,7 +72,8 @@ impl Header {
     pub fn parse(bytes: &[u8]) -> Result<Self, Fault> {
         let mut encoding = None;
         let mut elements: Vec<Element> = Vec::new();
-        // How the first line ends tells: after a carriage return alone the body's first byte may be anything.
+        // How the first line ends tells: after a carriage return alone the body's first byte may be
+        // anything.
         let first = bytes.iter().position(|b| matches!(b, b'\r' | b'\n')).unwrap_or(0);
         let end = match bytes.get(first..) {
             Some([b'\r', next, ..]) if *next != b'\n' => b'\r',

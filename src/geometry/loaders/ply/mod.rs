@@ -204,8 +204,8 @@ fn read_faces(body: &mut impl Body, element: &Element, layout: &Layout, faces: &
     Ok(thin)
 }
 
-/// The triangles of strips, each of which shares an edge with the one before and turns the other way along the list. What
-/// names a vertex twice in a row only joins strips.
+/// The triangles of strips, each of which shares an edge with the one before and turns the other
+/// way along the list. What names a vertex twice in a row only joins strips.
 fn read_strips(
     body: &mut impl Body,
     element: &Element,
