@@ -208,6 +208,8 @@ pub struct Reached {
     pub met: bool,
     /// By which way light may be there that was not found, for people; empty if by none.
     pub way: String,
+    /// How many pixels hold half of the error, where these are few.
+    pub held: Option<usize>,
 }
 
 impl Reached {
@@ -219,6 +221,18 @@ impl Reached {
             "nothing aims at some of the light: {}. {:.0} samples a pixel may have missed what adds {:.3} to the {}; \
              what they found has about {:.3}",
             self.way, self.mean_samples, bound.missed, target.measure, bound.estimate
+        ))
+    }
+}
+
+impl Reached {
+    /// Whether few samples decide about the error, in words.
+    pub fn few(&self) -> Option<String> {
+        let pixels = self.held?;
+        let what = if pixels == 1 { "one pixel holds" } else { "pixels hold" };
+        let count = if pixels == 1 { String::new() } else { format!("{pixels} ") };
+        Some(format!(
+            "{count}{what} half of the squared error: a few bright samples decide it, and what is promised leaves room for more of them"
         ))
     }
 }

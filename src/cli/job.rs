@@ -98,7 +98,9 @@ impl Job<'_> {
         }
         if !quiet && interrupt.pressed() == interrupt.stopped() {
             summary(layers.film(), started);
-            left_out(&needs);
+            if self.args.verbose() {
+                left_out(&needs);
+            }
         }
         Ok(layers)
     }
@@ -182,6 +184,7 @@ fn tell(reached: &Reached, quiet: bool) {
     } else if !quiet {
         show::note(reached);
     }
+    reached.few().filter(|_| !quiet).iter().for_each(show::note);
 }
 
 /// What the render did without, and why.

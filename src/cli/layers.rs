@@ -65,7 +65,11 @@ impl LayerArgs {
         let (bands, plain): (Vec<_>, Vec<_>) = outputs.iter().filter(exr).partition(|path| is_spectral(path));
         let option = if self.denoise_inputs { "--denoise-inputs" } else { "--aovs" };
         if plain.is_empty() && (self.denoise_inputs || !self.aovs.is_empty()) {
-            let message = format!("{option} has no file to go into: layers need an EXR file");
+            let why = match bands.is_empty() {
+                true => "layers need an EXR file",
+                false => "layers stand beside colours, and a .spectral.exr has bands",
+            };
+            let message = format!("{option} has no file to go into: {why}");
             return Err(SceneError::new(message).help("add -o picture.exr"));
         }
         if bands.is_empty() && self.spectral.is_some() {

@@ -26,6 +26,7 @@ pub mod work;
 
 use crate::scene::{SceneError, Text};
 use crate::spectrum::{Library, nearest};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, CommandFactory, Parser, Subcommand};
 use std::fs::File;
 use std::io::{self, Read};
@@ -173,9 +174,40 @@ fn meant(path: &Path) -> Option<String> {
     nearest(name, scenes.iter().map(String::as_str)).map(|scene| path.with_file_name(scene).display().to_string())
 }
 
+/// What is wrong with words that follow a scene: the first was to be a command, or they are scenes, too.
+fn surplus(error: &clap::Error) -> Option<SceneError> {
+    let context = error.get(ContextKind::InvalidSubcommand).or(error.get(ContextKind::InvalidArg));
+    let Some(ContextValue::String(second)) = context else { return None };
+    let words = || std::env::args().skip(1);
+    let kinds = [ErrorKind::UnknownArgument, ErrorKind::ArgumentConflict];
+    if !kinds.contains(&error.kind()) || second.starts_with('-') || second.starts_with('<') {
+        return None;
+    }
+    let first = words().next().filter(|first| !first.starts_with('-'))?;
+    let cli = Cli::command();
+    let known = || cli.get_subcommands().map(clap::Command::get_name);
+    let scene = |word: &str| word.ends_with(".toml");
+    if known().all(|command| command != first) && !scene(&first) {
+        let error = SceneError::new(format!("there is no command `{first}`"));
+        return Some(match nearest(&first, known()) {
+            Some(command) => error.help(format!("did you mean `spectrel {command} {second}`?")),
+            None => error.help(format!("the commands are {}", known().collect::<Vec<_>>().join(", "))),
+        });
+    }
+    let rendered = words().find(|word| scene(word) && word != second)?;
+    let message = format!("one scene at a time: `{rendered}`, and then `{second}` by itself");
+    scene(second).then(|| SceneError::new(message))
+}
+
 /// Parses the command line, runs it, prints one error if there is one.
 pub fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = Cli::try_parse().unwrap_or_else(|error| match surplus(&error) {
+        Some(error) => {
+            show::error(&error);
+            std::process::exit(2);
+        }
+        None => error.exit(),
+    });
     let outcome = match cli.command {
         None => render::run(&cli.render),
         Some(Command::Render(args)) => render::run(&args),

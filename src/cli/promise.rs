@@ -76,7 +76,10 @@ impl Work<'_> {
             let affordable = goal.affordable(started.elapsed(), mean);
             let over = affordable < mean * 1.05 || mean >= goal.most as f64 || self.cancelled();
             if over || promises.iter().all(Promise::keeps) {
-                return Ok(reached(layers, goal, &promises, kept));
+                let mut reached = reached(layers, goal, &promises, kept);
+                let (width, view) = viewed(layers, develop)?;
+                reached.held = Noise::of_each(layers.replicates(), width, &view).held();
+                return Ok(reached);
             }
             if kept.is_none() {
                 let settled = promises.iter().position(Promise::keeps);
@@ -146,6 +149,7 @@ fn reached(layers: &mut Layers, goal: &Goal, promises: &[Promise; 2], kept: Opti
         mean_samples: layers.film().samples() as f64 / layers.film().pixels().len() as f64,
         met: promises.iter().all(|promise| promise.keeps()),
         way: goal.chance.way.clone(),
+        held: None,
     }
 }
 

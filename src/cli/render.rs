@@ -57,6 +57,9 @@ pub struct RenderArgs {
     /// Print nothing but warnings and errors
     #[arg(long, short)]
     quiet: bool,
+    /// Say also which physics the scene did without, and why
+    #[arg(long, short, conflicts_with = "quiet")]
+    verbose: bool,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -108,6 +111,10 @@ impl RenderArgs {
 
     pub fn quiet(&self) -> bool {
         self.quiet
+    }
+
+    pub fn verbose(&self) -> bool {
+        self.verbose
     }
 
     pub fn options(&self) -> Options {

@@ -79,7 +79,7 @@ impl Point {
     }
 
     /// Axis of its cone, and the angles from it up to which there is full light and any, radians.
-    pub(super) fn cone(&self) -> Option<(DVec3, f64, f64)> {
+    pub fn cone(&self) -> Option<(DVec3, f64, f64)> {
         self.cone.map(|cone| cone.angles())
     }
 

@@ -16,6 +16,9 @@ use rayon::prelude::*;
 /// Pixels to each side whose covariances are averaged.
 const REACH: usize = 1;
 
+/// Caustics hold half of the error in one pixel in a hundred; in fewer than this it is single samples.
+const FEW: usize = 1000;
+
 /// The noise of a picture, pixel by pixel, row by row. Of no pixels, as in half of a single one, it is 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Noise {
@@ -66,6 +69,19 @@ impl Noise {
         let pixels: Vec<_> = replicates.par_iter().enumerate().map(of).collect();
         // Of 3 × 3 pixels those that touch by corners.
         Self::among(&pixels, width, view, 5.0, |at, other| in_it(at) && in_it(other))
+    }
+
+    /// How many pixels hold half of the squared error, if these are one in [`FEW`] at most.
+    pub fn held(&self) -> Option<usize> {
+        let mut squares = self.squares.clone();
+        squares.sort_unstable_by(|a, b| b.total_cmp(a));
+        let middle = 0.5 * squares.iter().map(|square| f64::from(*square)).sum::<f64>();
+        let sums = squares.iter().scan(0.0, |sum, square| {
+            *sum += f64::from(*square);
+            Some(*sum)
+        });
+        let pixels = sums.take_while(|sum| *sum < middle).count() + 1;
+        (middle > 0.0 && middle.is_finite() && pixels * FEW <= squares.len()).then_some(pixels)
     }
 
     /// Of pixels that speak for themselves, and by which of their neighbours.
@@ -157,6 +173,19 @@ fn trace(matrix: &Matrix3, &[xx, yy, zz, xy, yz, zx]: &[f64; 6]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn few_pixels_that_hold_half_of_the_error_are_counted() {
+        let noise = |squares: Vec<f32>| Noise { de: vec![], squares, colors: vec![], sharing: 1.0 };
+        let mut squares = vec![1e-3; 4000];
+        assert_eq!(noise(squares.clone()).held(), None, "every pixel alike");
+        squares[7] = 3.0;
+        squares[900] = 2.0;
+        assert_eq!(noise(squares.clone()).held(), Some(2), "3 of 9 are less than half, 5 are more");
+        squares.truncate(1000);
+        assert_eq!(noise(squares).held(), Some(1));
+        assert_eq!(noise(vec![0.0; 4000]).held(), None);
+    }
 
     /// What a half says depends on how many samples the other half has, and on nothing that its own number decides: its covariance falls as
     /// its samples grow.

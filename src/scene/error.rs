@@ -1,6 +1,6 @@
 //! Errors that say where, what was expected, and what was probably meant.
 
-use super::words::{meant, plain};
+use super::words::{meant, plain, slip};
 use crate::spectrum::SpectrumError;
 use std::fmt;
 use std::ops::Range;
@@ -77,8 +77,24 @@ impl Text {
                 let table = self.table_at(&span).map_or("this file".to_owned(), |path| format!("`{path}`"));
                 message = format!("{message} in {table}");
             }
-            self.error(&span, message).maybe_help(meant(error.message()))
+            let slip =
+                slip(error.message(), self.line_of(&span)).or_else(|| self.list_of_tables(error.message(), &span));
+            self.error(&span, message).maybe_help(slip.or_else(|| meant(error.message())))
         })
+    }
+
+    /// The line of a place, and how many of its bytes stand before it.
+    fn line_of(&self, span: &Range<usize>) -> (&str, usize) {
+        let start = span.start.min(self.content.len());
+        let line = self.content.get(..start).and_then(|before| before.rfind('\n')).map_or(0, |newline| newline + 1);
+        (self.content.get(line..).and_then(|rest| rest.lines().next()).unwrap_or(""), start - line)
+    }
+
+    /// How a table is written that stands in a list.
+    fn list_of_tables(&self, message: &str, span: &Range<usize>) -> Option<String> {
+        let expected = message.trim_end() == "invalid type: map, expected a sequence";
+        let name = self.table_at(span).filter(|_| expected)?;
+        Some(format!("there may be more than one: write `[[{name}]]` above each, with two brackets"))
     }
 
     /// The dotted name of the table that stands at a place.
@@ -119,7 +135,7 @@ impl SceneError {
         self
     }
 
-    fn maybe_help(mut self, help: Option<String>) -> Self {
+    pub(super) fn maybe_help(mut self, help: Option<String>) -> Self {
         self.help = help.or(self.help);
         self
     }

@@ -8,6 +8,7 @@ mod lighting;
 mod needs;
 mod numbers;
 mod optics;
+mod oversights;
 mod own_index;
 mod physics;
 mod pictures;

@@ -40,6 +40,39 @@ pub fn meant(message: &str) -> Option<String> {
     nearest(unknown, known).map(|name| format!("did you mean `{name}`?"))
 }
 
+/// What was probably meant by a slip of notation, given the line and how many of its bytes stand before the place of the error.
+pub fn slip(message: &str, (line, before): (&str, usize)) -> Option<String> {
+    let (unit, commas) = (
+        "a number stands alone: its key says what it counts in",
+        "numbers in a list stand apart by commas: [0, -8, 4]",
+    );
+    if message.starts_with("missing comma between array elements") {
+        return Some(commas.to_owned());
+    }
+    if message.starts_with("string values must be quoted") {
+        let words: Vec<&str> = line.get(before..)?.split([',', ']', '}', '#']).next()?.split_whitespace().collect();
+        let number = |word: &&str| word.parse::<f64>().is_ok();
+        return match words[..] {
+            [_, _, ..] if words.iter().all(|word| number(word)) => Some(commas.to_owned()),
+            [first, _, ..] if number(&first) => Some(unit.to_owned()),
+            _ => None,
+        };
+    }
+    let text = message.strip_prefix("invalid type: string \"").and_then(|rest| rest.split_once("\", expected f64"));
+    if let Some((text, _)) = text {
+        return measured(text).then(|| unit.to_owned());
+    }
+    let value = line.get(..before)?.rsplit(['=', ',', '[', '{']).next()?;
+    let follows = line.get(before..)?.trim_start().starts_with(char::is_alphabetic);
+    (follows && value.trim().parse::<f64>().is_ok()).then(|| unit.to_owned())
+}
+
+/// Whether a text is a number with something behind it, such as "200 cd".
+fn measured(text: &str) -> bool {
+    let number = text.trim().split(|c: char| c.is_whitespace() || c.is_alphabetic()).next().unwrap_or("");
+    number.parse::<f64>().is_ok()
+}
+
 /// "unknown field `x`, expected one of `a`, `b`" as x and [a, b].
 fn unknown_name(message: &str) -> Option<(&str, Vec<&str>)> {
     let (unknown, expected) = message.strip_prefix("unknown ")?.split_once(", expected ")?;
@@ -94,6 +127,21 @@ mod tests {
         ] {
             assert_eq!(plain(jargon), english);
         }
+    }
+
+    #[test]
+    fn slips_of_notation_are_told() {
+        let comma = slip("missing comma between array elements, expected `,`", ("position = [0 -8 4]", 14));
+        assert!(comma.is_some_and(|help| help.contains("[0, -8, 4]")));
+        let comma = slip("string values must be quoted, expected literal string", ("position = [0 -8 4]", 12));
+        assert!(comma.is_some_and(|help| help.contains("[0, -8, 4]")));
+        let said = |help: Option<String>| help.is_some_and(|help| help.contains("stands alone"));
+        assert!(said(slip("unexpected key or value", ("luminance = 200 cd", 16))));
+        assert!(said(slip("string values must be quoted", ("luminance = 200 cd", 12))));
+        assert!(said(slip("unexpected", ("emission = { luminance = 200 cd }", 29))));
+        assert!(said(slip("invalid type: string \"200 cd/m²\", expected f64", ("luminance = \"200 cd/m²\"", 12))));
+        assert_eq!(slip("invalid type: string \"bright\", expected f64", ("luminance = \"bright\"", 12)), None);
+        assert_eq!(slip("unexpected key or value", ("name = \"a\" b", 11)), None);
     }
 
     #[test]

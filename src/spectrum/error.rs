@@ -116,7 +116,10 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     let score = |candidate: &str| {
         let candidate = candidate.to_lowercase();
         let contains = !wanted.is_empty() && candidate.contains(&wanted);
-        strsim::jaro_winkler(&wanted, &candidate).max(if contains { 0.9 } else { 0.0 })
+        let [short, long] = [wanted.len().min(candidate.len()), wanted.len().max(candidate.len())];
+        // A long word is not a symbol of two letters, whichever letters they share.
+        let alike = if 5 * short < 2 * long { 0.0 } else { strsim::jaro_winkler(&wanted, &candidate) };
+        alike.max(if contains { 0.9 } else { 0.0 })
     };
     candidates
         .into_iter()
@@ -137,6 +140,9 @@ mod tests {
         assert_eq!(nearest("led_b1", names), Some("led-b1"));
         assert_eq!(nearest("xenon", names), None);
         assert_eq!(nearest("", names), None);
+        assert_eq!(nearest("aquamarine", ["Au", "Ag"]), None);
+        assert_eq!(nearest("anisotropy", ["ior", "roughness", "fresnel"]), None);
+        assert_eq!(nearest("god", ["gold"]), Some("gold"));
     }
 
     #[test]

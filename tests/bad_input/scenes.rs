@@ -348,3 +348,47 @@ fn point_lights_that_cannot_be() {
         scene_with(&format!("{SPHERE}[[points]]\nposition = [0, 0, 9]\nspectrum = §\"A\"\nluminous_flux = 4\n"));
     all_refused_at_mark(&[(unscaled, &["meters_per_unit"])]);
 }
+
+/// What people who come from other programs write, and what they are told.
+#[test]
+fn usual_slips_are_told_with_what_was_meant() {
+    let lamp = |strength: &str| light(&format!("emission = {{ spectrum = \"A\", luminance = {strength} }}"));
+    let named =
+        |name: &str| format!("{}[[objects]]\nmaterial = \"{name}\"\nshape.sphere = {{ radius = 1 }}\n", scene_with(""));
+    for (scene, says) in [
+        (material("conductor]\nior = \"gold\""), "`gold` is a material: its data set is `Au/olmon-2012-evaporated`"),
+        (material("dielectric]\nior = \"diamond\""), "`diamond` is a material: its data set is `"),
+        (scene_with(SPHERE).replace("[[objects]]", "[objects]"), "write `[[objects]]` above each"),
+        (scene_with(SPHERE).replace("[0, -10, 0]", "[0 -10 0]"), "apart by commas"),
+        (lamp("200 cd"), "a number stands alone"),
+        (lamp("\"200 cd\""), "a number stands alone"),
+        (named("aquamarine"), "`material = \"beryl\"`"),
+        (named("citrine"), "`material = \"quartz\"`"),
+        (named("tsavorite"), "`material = \"grossular\"`"),
+        (named("white gold"), "`material = \"rhodium\"`"),
+    ] {
+        assert_refused(&render(scene, &[], &["-q"]), &[says]);
+    }
+    for scene in [named("aquamarine"), material("conductor]\nior = 1\nanisotropy = 0.5")] {
+        let said = render(scene, &[], &["-q"]).stderr;
+        assert!(!said.contains("did you mean"), "{said}");
+    }
+    let bands = render(scene_with(SPHERE), &[], &["--aovs", "normal", "-o", "a.spectral.exr"]);
+    assert_refused(&bands, &["a .spectral.exr has bands", "add -o picture.exr"]);
+}
+
+#[test]
+fn words_beyond_a_scene_are_told_apart() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let said = |words: &[&str], says: &str| assert_refused(&spectrel(folder.path(), words), &[says]);
+    said(&["rendr", "t.toml"], "did you mean `spectrel render t.toml`?");
+    said(&["a.toml", "b.toml"], "one scene at a time: `a.toml`");
+    said(&["render", "a.toml", "b.toml"], "one scene at a time: `a.toml`");
+}
+
+#[test]
+fn what_a_render_did_without_is_told_if_asked() {
+    let said = |more: &[&str]| render(scene_with(SPHERE), &[], more).stderr;
+    assert!(!said(&[]).contains("left out"), "{}", said(&[]));
+    assert!(said(&["-v"]).contains("left out") && said(&["-v"]).contains("visible density"), "{}", said(&["-v"]));
+}

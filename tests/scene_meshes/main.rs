@@ -174,7 +174,9 @@ fn the_material_around_everything_is_there_for_objects_too() {
     assert!((with / without - 1.0).abs() < 1e-5, "{with} {without}");
     let other = scene(&format!("{own}[materials.v.dielectric]\nior = 1.5\n"), "w", "v");
     assert!(matches!(surface(&other), Surface::Dielectric(interface) if interface.medium.0 != 0));
-    assert!(same.warnings.is_empty() && other.warnings.is_empty());
+    // In light from all around clear things are not seen, which is all that is to be told.
+    let told = [&same, &other].map(|scene| scene.warnings.join("\n"));
+    assert!(told.iter().all(|told| told.starts_with("everything here is clear") && !told.contains('\n')), "{told:?}");
 }
 
 #[test]
@@ -210,6 +212,71 @@ fn lights_of_which_nothing_arrives_are_told() {
     assert!(common::scene(&text, &Overrides::default()).warnings[0].contains("point lights light nothing"));
     let text = ["outside = \"water\"\n", HEAD, CAMERA, &ball("gold")].concat();
     assert!(common::scene(&text, &Overrides::default()).warnings[0].contains("infinitely far away"));
+}
+
+/// What is possible and hardly meant is told; the same scene put right is silent.
+#[test]
+fn oversights_are_told() {
+    let said = |more: &str| common::scene(&[HEAD, CAMERA, more].concat(), &Overrides::default()).warnings.join("\n");
+    let check = |wrong: &str, words: &str, right: &str| {
+        let (wrong, right) = (said(wrong), said(right));
+        assert!(wrong.contains(words), "{words:?} is not in {wrong:?}");
+        assert_eq!(right, "");
+    };
+    let metal = |ior: &str| {
+        format!(
+            "[materials.m.conductor]\nior = {ior}\n[[objects]]\nmaterial = \"m\"\nshape.sphere = {{ radius = 1 }}\n"
+        )
+    };
+    check(&metal("{ n = 5.9, k = 0.2 }"), "`m`: n is above k at all wavelengths", &metal("{ n = 0.2, k = 5.9 }"));
+    check(&metal("1.5"), "`m` is a conductor whose k is 0", &metal("\"W/weaver-1975\""));
+
+    let panel = |normal: &str, more: &str| {
+        format!(
+            "{}[[objects]]\nname = \"panel\"\nshape.rectangle = {{ center = [0, 0, 9], size = [2, 2], normal = {normal} }}\n\
+             emission = {{ spectrum = \"A\", luminance = 9{more} }}\n",
+            metal("{ n = 0.2, k = 5.9 }")
+        )
+    };
+    check(&panel("[0, 0, 1]", ""), "panel shines away from everything", &panel("[0, 0, -1]", ""));
+    assert_eq!(said(&panel("[0, 0, 1]", ", two_sided = true")), "");
+
+    let points = |alpha: &str, direction: &str| {
+        let own = metal("{ n = 0.2, k = 5.9 }").replace("5.9 }", &format!("5.9 }}\n{alpha}"));
+        let floor = "[materials.d.diffuse]\nreflectance = 0.5\n[[objects]]\nname = \"floor\"\nmaterial = \"d\"\n\
+                     shape.rectangle = { center = [0, 0, -2], size = [9, 9] }\n";
+        let point = "[[points]]\nposition = [0, 0, 9]\nspectrum = \"A\"\nluminous_flux = 4\ncone_angle = 30\n";
+        format!("{own}{floor}{point}direction = {direction}\n")
+    };
+    check(
+        &points("", "[0, 0, -1]"),
+        "object 1 is smooth and shows no point light",
+        &points("roughness = 0.2", "[0, 0, -1]"),
+    );
+    assert!(said(&points("roughness = 0.2", "[1, 0, 0]")).contains("a point light with a cone shines away"));
+
+    let clear = |size: &str, more: &str| {
+        format!(
+            "[materials.m.dielectric]\nior = 1.5\n[[objects]]\nmaterial = \"m\"\nshape.box = {{ size = {size} }}\n{more}"
+        )
+    };
+    let dark = "[[objects]]\nmaterial = \"gold\"\nshape.sphere = { center = [5, 0, 0], radius = 1 }\n";
+    check(&clear("[1, 1, 1]", ""), "everything here is clear", &clear("[1, 1, 1]", dark));
+    // Scene units are millimetres.
+    check(&clear("[1, 1, 0.015]", dark), "object 1 is thinner than 20 µm", &clear("[1, 1, 0.025]", dark));
+}
+
+#[test]
+fn a_mesh_far_from_the_picture_is_told_with_its_place() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("cubes.obj"), cubes()).unwrap();
+    let at = |z: f64| {
+        let mesh = "[[objects]]\nname = \"ring\"\nmaterial = \"gold\"\nshape.mesh = { file = \"cubes.obj\" }\n";
+        let text = format!("{HEAD}{CAMERA}{mesh}transform = {{ translate = [0, 0, {z}] }}\n");
+        resolved_in(folder.path(), &text).unwrap().warnings.join("\n")
+    };
+    assert!(at(5000.0).contains("far outside of the picture") && at(5000.0).contains("ring"), "{}", at(5000.0));
+    assert_eq!(at(0.0), "");
 }
 
 /// A glTF file with one triangle and a camera that looks along +y from (1, −5, 2) of our axes, in metres.

@@ -1,6 +1,7 @@
 //! Materials: names become data sets, data sets become spectra of the scene.
 
 use super::Resolver;
+use super::trade::traded;
 use crate::fresnel::FresnelModel;
 use crate::fresnel::absorbing::LEAST_K;
 use crate::scene::describe::{self, AbsorptionSource, IndexSource, ReflectanceSource, RoughnessSource};
@@ -98,7 +99,11 @@ impl Resolver<'_> {
             let help = format!("write a material: [materials.mine.conductor] (or dielectric) with ior = \"{wanted}\"");
             return self.text.error(&name.span(), message).help(help);
         }
+        let traded = traded(wanted);
         let error = match error {
+            SpectrumError::UnknownMaterial { name, .. } if traded.is_some() => {
+                SpectrumError::UnknownMaterial { name, suggestion: None }
+            }
             SpectrumError::UnknownMaterial { name, suggestion } => {
                 let known = self.own_materials.keys().map(String::as_str).chain(suggestion.as_deref());
                 let suggestion = nearest(wanted, known).map(str::to_owned);
@@ -106,9 +111,37 @@ impl Resolver<'_> {
             }
             other => other,
         };
-        match self.substitutes.is_replaced(asked) {
+        let error = match self.substitutes.is_replaced(asked) {
             true => SceneError::new(format!("--vary {asked}={wanted}: {error}")),
             false => self.text.error(&name.span(), error),
+        };
+        error.maybe_help(traded)
+    }
+
+    /// A material's name where that of a data set is asked for is told with the data set that the material has.
+    fn unknown_index(&self, name: &str, error: SpectrumError) -> SceneError {
+        let own = |material: &describe::Material| {
+            let conductor = material.conductor.as_ref().map(|kind| &kind.get_ref().ior);
+            let source = conductor.or(material.dielectric.as_ref().map(|kind| &kind.get_ref().ior))?;
+            match source.get_ref() {
+                IndexSource::Name(name) => Some(name.clone()),
+                IndexSource::Constant { .. } => None,
+            }
+        };
+        let by_library = || {
+            let found = self.library.material(name).ok()?;
+            own(&Text::new(found.origin, found.text).parse().ok()?)
+        };
+        let set = match self.own_materials.get(name) {
+            Some((material, _)) => own(material),
+            None => by_library(),
+        };
+        match (error, set) {
+            (SpectrumError::UnknownData { quantity, name, .. }, Some(set)) => {
+                let help = format!("`{name}` is a material: its data set is `{set}`");
+                SceneError::new(SpectrumError::UnknownData { quantity, name, suggestion: None }).help(help)
+            }
+            (error, _) => SceneError::new(error),
         }
     }
 
@@ -190,6 +223,7 @@ impl Resolver<'_> {
         pattern: &mut Pattern,
     ) -> Result<Surface, SceneError> {
         let ior = self.ior(described, &conductor.ior)?;
+        self.warn_of_odd_metal(described, conductor.ior.get_ref(), &ior);
         let (text, words) = (&described.text, [&conductor.roughness, &conductor.perceptual_roughness]);
         let alpha = self.roughness(text, words[0], words[1], pattern)?;
         Ok(Surface::Conductor {
@@ -200,6 +234,27 @@ impl Resolver<'_> {
         })
     }
 
+    /// Tells of numbers that are possible and no metal's. Data sets of the library are what they are.
+    fn warn_of_odd_metal(&mut self, described: &Described, source: &IndexSource, ior: &Ior) {
+        let own = match source {
+            IndexSource::Constant { .. } => true,
+            IndexSource::Name(name) => described.text.base().join(name).is_file(),
+        };
+        let name = &described.name;
+        if !own || self.substitutes.index(&described.asked).is_some() {
+            return;
+        }
+        if visible_nm().all(|nm| ior.k.at(nm) == 0.0) {
+            self.warnings.push(format!(
+                "`{name}` is a conductor whose k is 0: it reflects as glass does, and what enters is lost; what is clear is a [dielectric]"
+            ));
+        } else if visible_nm().all(|nm| ior.n.at(nm) > ior.k.at(nm)) {
+            self.warnings.push(format!(
+                "`{name}`: n is above k at all wavelengths, as of few metals (tungsten, molybdenum) and no noble one: are n and k exchanged?"
+            ));
+        }
+    }
+
     fn ior(&mut self, described: &Described, source: &Spanned<IndexSource>) -> Result<Arc<Ior>, SceneError> {
         let error = |message: &dyn Display| described.text.error(&source.span(), message);
         if let Some(ior) = self.substitute_index(&described.asked, &described.name)? {
@@ -208,7 +263,10 @@ impl Resolver<'_> {
         }
         let ior = match source.get_ref() {
             IndexSource::Name(name) => {
-                let found = self.library.ior(name, described.text.base()).map_err(|fault| error(&fault))?;
+                let found = self.library.ior(name, described.text.base()).map_err(|fault| {
+                    let SceneError { message, help, .. } = self.unknown_index(name, fault);
+                    error(&message).maybe_help(help)
+                })?;
                 self.note_data(&described.name, &found.about);
                 found
             }

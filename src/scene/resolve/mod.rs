@@ -19,12 +19,14 @@ mod shapes;
 mod solids;
 mod substitutes;
 mod surroundings;
+mod trade;
 mod view;
 
 pub(super) use emission::BRIGHTEST;
 pub use settings::Overrides;
 
 use super::describe::{self, SceneFile};
+use super::oversights::{self, Measures};
 use super::{DataSet, Medium, Pattern, Scene, SceneError, Surface, Text};
 use crate::fresnel::FresnelModel;
 use crate::geometry::{Bounds, World};
@@ -151,7 +153,8 @@ impl Resolver<'_> {
         self.warn_of_unused_materials();
         self.sources.insert(0, self.text.clone());
         let rgb = self.rgb_colors()?;
-        Ok(Scene {
+        let measures = Measures { meters_per_unit: self.meters_per_unit, origin: self.origin, look_at: view.look_at };
+        let mut scene = Scene {
             spectra: self.spectra,
             world,
             origin: self.origin,
@@ -172,7 +175,10 @@ impl Resolver<'_> {
             sources: self.sources,
             files: self.files.into_iter().collect(),
             rgb,
-        })
+        };
+        let oversights = oversights::of(&scene, &measures);
+        scene.warnings.extend(oversights);
+        Ok(scene)
     }
 
     fn positive(&self, number: &Spanned<f64>, what: &str) -> Result<f64, SceneError> {

@@ -29,7 +29,7 @@ impl Substitutes {
     }
 
     /// The index of refraction that `material` is to have in place of its own.
-    fn index(&self, material: &str) -> Option<&str> {
+    pub fn index(&self, material: &str) -> Option<&str> {
         self.indices.get(material).map(String::as_str)
     }
 
