@@ -159,7 +159,7 @@ fn a_view_that_begins_in_something_opaque_is_refused_or_told() {
     assert!(error.contains("inside `wall`"), "{error}");
     // A part of it: black there.
     let scene = resolved(&(downwards("box") + SKY + &wall(5.5))).expect("the middle is free");
-    let told = scene.warnings.iter().any(|warning| warning.contains("`wall`") && warning.contains("black"));
+    let told = scene.warnings.iter().any(|warning| warning.contains("wall") && warning.contains("black"));
     assert!(told, "{:?}", scene.warnings);
     let film = film(&scene);
     close("beside the wall", columns(&film, 0..10), 100.0, 1e-5);

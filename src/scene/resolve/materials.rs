@@ -125,7 +125,7 @@ impl Resolver<'_> {
             let source = conductor.or(material.dielectric.as_ref().map(|kind| &kind.get_ref().ior))?;
             match source.get_ref() {
                 IndexSource::Name(name) => Some(name.clone()),
-                IndexSource::Constant { .. } => None,
+                IndexSource::Constant { .. } | IndexSource::Own(_) => None,
             }
         };
         let by_library = || {
@@ -237,7 +237,7 @@ impl Resolver<'_> {
     /// Tells of numbers that are possible and no metal's. Data sets of the library are what they are.
     fn warn_of_odd_metal(&mut self, described: &Described, source: &IndexSource, ior: &Ior) {
         let own = match source {
-            IndexSource::Constant { .. } => true,
+            IndexSource::Constant { .. } | IndexSource::Own(_) => true,
             IndexSource::Name(name) => described.text.base().join(name).is_file(),
         };
         let name = &described.name;
