@@ -26,14 +26,25 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
 /// taken for Latin-1, whose letters are the first 256 of Unicode: µ, °, ², Å and é come out right,
 /// in Windows' and Apple's code pages µ at least.
 pub fn decode(bytes: &[u8]) -> Option<Cow<'_, str>> {
-    let text = match bytes {
-        [0xFF, 0xFE, rest @ ..] => Cow::Owned(utf16(rest, u16::from_le_bytes)?),
-        [0xFE, 0xFF, rest @ ..] => Cow::Owned(utf16(rest, u16::from_be_bytes)?),
-        _ if every_other_is_zero(bytes, 1) => Cow::Owned(utf16(bytes, u16::from_le_bytes)?),
-        _ if every_other_is_zero(bytes, 0) => Cow::Owned(utf16(bytes, u16::from_be_bytes)?),
-        _ => one_byte(bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes))?,
+    let text = match unmarked(bytes)? {
+        Cow::Borrowed(bytes) if bytes.contains(&0) => return None,
+        Cow::Borrowed(bytes) => letters(bytes),
+        Cow::Owned(bytes) => Cow::Owned(String::from_utf8(bytes).ok()?),
     };
     Some(if text.contains('\r') { Cow::Owned(text.replace("\r\n", "\n").replace('\r', "\n")) } else { text })
+}
+
+/// Returns bytes without a byte order mark, what is in UTF-16 as UTF-8: for files that may go on in binary. `None` for UTF-16 that is no
+/// text.
+pub fn unmarked(bytes: &[u8]) -> Option<Cow<'_, [u8]>> {
+    let utf16 = |bytes, unit| Some(Cow::Owned(utf16(bytes, unit)?.into_bytes()));
+    match bytes {
+        [0xFF, 0xFE, rest @ ..] => utf16(rest, u16::from_le_bytes),
+        [0xFE, 0xFF, rest @ ..] => utf16(rest, u16::from_be_bytes),
+        _ if every_other_is_zero(bytes, 1) => utf16(bytes, u16::from_le_bytes),
+        _ if every_other_is_zero(bytes, 0) => utf16(bytes, u16::from_be_bytes),
+        _ => Some(Cow::Borrowed(bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes))),
+    }
 }
 
 fn utf16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Option<String> {
@@ -52,15 +63,12 @@ fn every_other_is_zero(bytes: &[u8], zero: usize) -> bool {
     !pairs.is_empty() && pairs.iter().all(|pair| pair[zero] == 0 && pair[1 - zero] != 0)
 }
 
-/// UTF-8, or a code page of one byte a letter.
-fn one_byte(bytes: &[u8]) -> Option<Cow<'_, str>> {
-    if bytes.contains(&0) {
-        return None;
-    }
-    Some(match std::str::from_utf8(bytes) {
+/// Returns UTF-8 as it is, and other bytes as the letters of a code page of one byte a letter.
+pub fn letters(bytes: &[u8]) -> Cow<'_, str> {
+    match std::str::from_utf8(bytes) {
         Ok(text) => Cow::Borrowed(text),
         Err(_) => Cow::Owned(bytes.iter().copied().map(char::from).collect()),
-    })
+    }
 }
 
 #[cfg(test)]

@@ -118,7 +118,7 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         let contains = !wanted.is_empty() && candidate.contains(&wanted);
         let [short, long] = [wanted.len().min(candidate.len()), wanted.len().max(candidate.len())];
         // A long word is not a symbol of two letters, whichever letters they share.
-        let alike = if 5 * short < 2 * long { 0.0 } else { strsim::jaro_winkler(&wanted, &candidate) };
+        let alike = if short <= 3 && long > 2 * short { 0.0 } else { strsim::jaro_winkler(&wanted, &candidate) };
         alike.max(if contains { 0.9 } else { 0.0 })
     };
     candidates
@@ -143,6 +143,7 @@ mod tests {
         assert_eq!(nearest("aquamarine", ["Au", "Ag"]), None);
         assert_eq!(nearest("anisotropy", ["ior", "roughness", "fresnel"]), None);
         assert_eq!(nearest("god", ["gold"]), Some("gold"));
+        assert_eq!(nearest("Au/jonson", ["Au/johnson-christy-1972"]), Some("Au/johnson-christy-1972"));
     }
 
     #[test]

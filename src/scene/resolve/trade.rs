@@ -12,7 +12,6 @@ const TRADE: &[(&[&str], &str, &str)] = &[
     (&["rhodolite"], "pyrope", "it is a garnet of pyrope and almandine"),
     (&["paraiba", "rubellite", "indicolite", "verdelite"], "tourmaline", "it is a tourmaline"),
     (&["olivine", "chrysolite"], "peridot", "the gem of olivine is peridot"),
-    (&["cordierite"], "iolite", "the gem of cordierite is iolite"),
     (&["zoisite"], "tanzanite", "the blue zoisite is tanzanite"),
     (&["padparadscha", "star sapphire"], "sapphire", "it is a sapphire"),
     (&["cz", "zirconia"], "cubic-zirconia", "it is cubic zirconia"),
