@@ -32,11 +32,11 @@ pub fn of(scene: &Scene, measures: &Measures) -> Vec<String> {
     all.into_iter().flatten().collect()
 }
 
-fn surface<'a>(scene: &'a Scene, index: usize) -> &'a Surface {
+fn surface(scene: &Scene, index: usize) -> &Surface {
     &scene.surfaces[scene.objects[index].surface as usize]
 }
 
-fn names<'a>(scene: &'a Scene, holds: impl Fn(usize) -> bool) -> Vec<&'a str> {
+fn names(scene: &Scene, holds: impl Fn(usize) -> bool) -> Vec<&str> {
     (0..scene.objects.len()).filter(|&index| holds(index)).map(|index| scene.objects[index].name.as_str()).collect()
 }
 

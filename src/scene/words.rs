@@ -53,7 +53,7 @@ pub fn slip(message: &str, (line, before): (&str, usize)) -> Option<String> {
         let words: Vec<&str> = line.get(before..)?.split([',', ']', '}', '#']).next()?.split_whitespace().collect();
         let number = |word: &&str| word.parse::<f64>().is_ok();
         return match words[..] {
-            [_, _, ..] if words.iter().all(|word| number(word)) => Some(commas.to_owned()),
+            [_, _, ..] if words.iter().all(&number) => Some(commas.to_owned()),
             [first, _, ..] if number(&first) => Some(unit.to_owned()),
             _ => None,
         };

@@ -95,7 +95,7 @@ fn ranked(bytes: &[u8], stride: usize) -> (Vec<[f64; 3]>, Index) {
     let ranks = bytes.par_chunks_exact(stride).map(|texel| rank(color(texel)));
     let index = match colors.len() {
         0..=0x100 => Index::One(ranks.map(|rank| rank as u8).collect()),
-        0..=0x1_0000 => Index::Two(ranks.map(|rank| rank as u16).collect()),
+        0x101..=0x1_0000 => Index::Two(ranks.map(|rank| rank as u16).collect()),
         _ => Index::Four(ranks.collect()),
     };
     (colors, index)

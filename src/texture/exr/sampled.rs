@@ -102,7 +102,7 @@ impl Rows {
         let lines = header.compression.scan_lines_per_block();
         let first = i64::from(y) - i64::from(header.own_attributes.layer_position.1);
         let height = header.layer_size.1 as i64;
-        if !(0..height).contains(&first) || first as usize % lines != 0 {
+        if !(0..height).contains(&first) || !(first as usize).is_multiple_of(lines) {
             return Err(Fault::new("a block of rows in it stands outside of the picture"));
         }
         Ok(Self { y, first: first as usize, count: lines.min((height - first) as usize) })
@@ -110,7 +110,8 @@ impl Rows {
 
     /// The channels that have samples in a row, with their sizes in bytes.
     fn channels(row: usize, header: &Header) -> impl Iterator<Item = (usize, usize)> + '_ {
-        let all = header.channels.list.iter().enumerate().filter(move |(_, channel)| row % channel.sampling.1 == 0);
+        let all =
+            header.channels.list.iter().enumerate().filter(move |(_, channel)| row.is_multiple_of(channel.sampling.1));
         all.map(|(i, channel)| (i, header.layer_size.0 / channel.sampling.0 * channel.sample_type.bytes_per_sample()))
     }
 
@@ -118,7 +119,7 @@ impl Rows {
         let rows = self.first..self.first + self.count;
         let bytes: usize = rows.flat_map(|row| Self::channels(row, header)).map(|(_, bytes)| bytes).sum();
         let texels = header.layer_size.0 * self.count;
-        if bytes % texels != 0 {
+        if !bytes.is_multiple_of(texels) {
             return Err(Fault::new("this kind of EXR is not read: channels of a fraction of a byte for each texel"));
         }
         let mut header = header.clone();
