@@ -3,9 +3,10 @@
 use crate::files;
 use std::borrow::Cow;
 
-/// A file without its byte order mark; what is in UTF-16 is turned to UTF-8.
+/// A file without its byte order mark; what is in UTF-16 is turned to UTF-8, but for half a letter at its end.
 pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, [u8]> {
-    files::unmarked(bytes).unwrap_or(Cow::Borrowed(bytes))
+    let whole = || files::unmarked(bytes.get(..bytes.len() & !1)?);
+    files::unmarked(bytes).or_else(whole).unwrap_or(Cow::Borrowed(bytes))
 }
 
 /// A text whose lines end in line feeds, with or without a carriage return before them.
