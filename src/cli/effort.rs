@@ -223,10 +223,8 @@ impl Reached {
             self.way, self.mean_samples, bound.missed, target.measure, bound.estimate
         ))
     }
-}
 
-impl Reached {
-    /// Whether few samples decide about the error, in words.
+    /// Returns whether few samples decide about the error, in words.
     pub fn few(&self) -> Option<String> {
         let pixels = self.held?;
         let what = if pixels == 1 { "one pixel holds" } else { "pixels hold" };

@@ -14,7 +14,7 @@
 use super::effort::{Measure, Reached, Target};
 use super::show;
 use super::work::{Work, counts, viewed, width};
-use crate::film::{Develop, FilmError, Kept, Layers, REPLICATES};
+use crate::film::{Develop, FilmError, Layers, REPLICATES};
 use crate::report::View;
 use crate::report::bound::{Bound, Unseen};
 use crate::report::noise::{Noise, half};
@@ -76,10 +76,9 @@ impl Work<'_> {
             let affordable = goal.affordable(started.elapsed(), mean);
             let over = affordable < mean * 1.05 || mean >= goal.most as f64 || self.cancelled();
             if over || promises.iter().all(Promise::keeps) {
-                let mut reached = reached(layers, goal, &promises, kept);
-                let (width, view) = viewed(layers, develop)?;
-                reached.held = Noise::of_each(layers.replicates(), width, &view).held();
-                return Ok(reached);
+                // What one half was given only to judge the other one is taken back.
+                kept.iter().for_each(|kept| layers.put_back(kept));
+                return reached(layers, goal, &promises, develop);
             }
             if kept.is_none() {
                 let settled = promises.iter().position(Promise::keeps);
@@ -140,17 +139,17 @@ fn nearest(promises: &[Promise; 2]) -> f64 {
     open.map(|promise| promise.next).fold(f64::INFINITY, f64::min)
 }
 
-/// Puts back what one half was given only to judge the other one.
-fn reached(layers: &mut Layers, goal: &Goal, promises: &[Promise; 2], kept: Option<Kept>) -> Reached {
-    kept.iter().for_each(|kept| layers.put_back(kept));
-    Reached {
+/// What a finished render tells of itself.
+fn reached(layers: &Layers, goal: &Goal, promises: &[Promise; 2], develop: &Develop) -> Result<Reached, FilmError> {
+    let (width, view) = viewed(layers, develop)?;
+    Ok(Reached {
         bounds: together(goal.targets, promises),
         targets: goal.targets.to_vec(),
         mean_samples: layers.film().samples() as f64 / layers.film().pixels().len() as f64,
         met: promises.iter().all(|promise| promise.keeps()),
         way: goal.chance.way.clone(),
-        held: None,
-    }
+        held: Noise::of_each(layers.replicates(), width, &view).held(),
+    })
 }
 
 /// The picture's bounds from those of its halves.

@@ -1,7 +1,7 @@
 //! Reflectance of an interface: numbers in, numbers out; no scene.
 //!
-//! `exact` is the f64 reference. `conductor`, `dielectric` and `absorbing` (media with k on both sides) are the exact equations in f32 over the lanes of a path, and each
-//! approximation has a file of its own. To add a model, write its file with `impl Model` or `impl Rgb` and add one line to
+//! `exact` is the f64 reference. `conductor`, `dielectric` and `absorbing` (media with k on both sides) are
+//! the exact equations in f32 over the lanes of a path, and each approximation has a file of its own. To add a model, write its file with `impl Model` or `impl Rgb` and add one line to
 //! `models!` below.
 //!
 //! - `specimen`: an interface as measured; `target`: the colours that RGB models are fitted to; `rgb`: how they act on wavelengths.

@@ -2,7 +2,7 @@
 //!
 //! An adversary who has the light spends it on the errors that reach a value t with the least of it, and stops when as many are
 //! at t as the percentile needs. The highest t that he can pay for is the bound. How much light a pixel needs for an error is read
-//! from chords of its ΔE2000 at some amounts; ΔE grows less than light does, and the chords are within 2 % of it.
+//! from chords of its ΔE2000 at some amounts; ΔE grows less than light does, and from the first amount on the chords are within 2 % of it.
 
 use rayon::prelude::*;
 
@@ -22,24 +22,19 @@ pub struct Seen {
     pub pixel: usize,
 }
 
-/// Return the highest error that is reached by `needed` of those that are seen, if light adds as much as `rises` says
+/// Return the highest error that is reached by `needed` of those that are seen, in ascending order, if light adds as much as `rises` says
 /// of each pixel and there is one unit of it for each error.
 pub fn highest(seen: &[Seen], rises: &[Rise], needed: usize) -> f64 {
-    let mut low = nth_largest(seen, needed);
+    let mut low = seen[seen.len() - needed].error;
     let most = seen.len() as f64 / needed as f64;
     let rise = rises.iter().map(|rise| along(&AMOUNTS, rise, most)).fold(0.0, f64::max);
-    let mut high = nth_largest(seen, 1) + rise;
+    let mut high = seen[seen.len() - 1].error + rise;
     for _ in 0..STEPS {
         let middle = 0.5 * (low + high);
         let costs = seen.par_iter().map(|seen| cost(&rises[seen.pixel], middle - seen.error)).collect();
         if cheapest(costs, needed) <= seen.len() as f64 { low = middle } else { high = middle }
     }
     high
-}
-
-fn nth_largest(seen: &[Seen], needed: usize) -> f64 {
-    let mut errors: Vec<f64> = seen.iter().map(|seen| seen.error).collect();
-    *errors.select_nth_unstable_by(needed - 1, |a, b| b.total_cmp(a)).1
 }
 
 /// The sum of the `needed` smallest.
@@ -68,7 +63,9 @@ mod tests {
     const EVEN: Rise = AMOUNTS;
 
     fn seen(errors: impl Iterator<Item = f64>) -> Vec<Seen> {
-        errors.enumerate().map(|(pixel, error)| Seen { error, pixel }).collect()
+        let mut seen: Vec<Seen> = errors.enumerate().map(|(pixel, error)| Seen { error, pixel }).collect();
+        seen.sort_by(|a, b| a.error.total_cmp(&b.error));
+        seen
     }
 
     /// Of 100 pixels without any error, all light on the needed five lifts each by 20.

@@ -58,6 +58,14 @@ struct Layout {
 }
 
 impl Layout {
+    /// Returns the vertex that a list names, or how it is wrong.
+    fn corner(&self, vertex: f64) -> Result<u32, String> {
+        match vertex >= 0.0 && vertex < self.vertices as f64 && vertex <= u32::MAX.into() {
+            true => Ok(vertex as u32),
+            false => Err(format!("names vertex {vertex}, but the file has {} (counted from 0)", self.vertices)),
+        }
+    }
+
     fn of(header: &Header) -> Result<Self, Fault> {
         let absent = |name: &str| Fault::new(format!("the header has no element `{name}`"));
         let vertex = header.element("vertex").ok_or_else(|| absent("vertex"))?;
@@ -178,14 +186,9 @@ fn read_faces(body: &mut impl Body, element: &Element, layout: &Layout, faces: &
                     let size = list_length(body, length)?;
                     for _ in 0..size {
                         let vertex = body.number(property.value)?;
-                        if !(vertex >= 0.0 && vertex < layout.vertices as f64 && vertex <= u32::MAX.into()) {
-                            let message = format!(
-                                "face {row} names vertex {vertex}, but the file has {} (counted from 0)",
-                                layout.vertices
-                            );
-                            return Err(body.fault(message));
-                        }
-                        faces.corners.push(vertex as u32);
+                        faces
+                            .corners
+                            .push(layout.corner(vertex).map_err(|wrong| body.fault(format!("face {row} {wrong}")))?);
                     }
                     if size < 3 {
                         faces.corners.truncate(faces.corners.len().saturating_sub(size as usize));
@@ -227,14 +230,7 @@ fn read_strips(
                             strip.clear();
                             continue;
                         }
-                        if !(vertex >= 0.0 && vertex < layout.vertices as f64 && vertex <= u32::MAX.into()) {
-                            let message = format!(
-                                "strip {row} names vertex {vertex}, but the file has {} (counted from 0)",
-                                layout.vertices
-                            );
-                            return Err(body.fault(message));
-                        }
-                        strip.push(vertex as u32);
+                        strip.push(layout.corner(vertex).map_err(|wrong| body.fault(format!("strip {row} {wrong}")))?);
                         let [.., a, b, c] = strip[..] else { continue };
                         let triangle = if strip.len() % 2 == 1 { [a, b, c] } else { [a, c, b] };
                         if a != b && b != c && c != a {
