@@ -103,7 +103,7 @@ impl Triangles {
         if first.found.is_solid() {
             return first.outwards().parts();
         }
-        let once = first.front().unwrap_or_else(|| first.without_repeats().agreeing());
+        let once = first.front().or_else(|| first.facing()).unwrap_or_else(|| first.without_repeats().agreeing());
         let agreeing = first.agreeing();
         let best = if agreeing.found.is_solid() || agreeing.openness() <= once.openness() { agreeing } else { once };
         if best.found.is_solid() {
@@ -144,6 +144,18 @@ impl Attempt {
         let repeated = self.mesh.indices.len() - mesh.indices.len();
         let front = Self::of(mesh, Mended { repeated: self.mended.repeated + repeated, ..self.mended.clone() });
         front.found.is_solid().then_some(front)
+    }
+
+    /// Bodies beside each other that all face outwards, where some that face inwards left nothing of the volume: a stone and its mirror
+    /// image.
+    fn facing(&self) -> Option<Self> {
+        if !self.found.is_closed() {
+            return None;
+        }
+        let mut mesh = self.mesh.clone();
+        let turned = patches::face_outwards(&mut mesh, 1.0);
+        let facing = Self::of(mesh, Mended { turned: self.mended.turned + turned, ..self.mended.clone() });
+        facing.found.is_solid().then_some(facing)
     }
 
     /// Neighbours wound alike.

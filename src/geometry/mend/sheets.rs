@@ -14,20 +14,26 @@ use crate::geometry::mesh::weld;
 /// Sheets that lie on each other agree in area and volume to this, relatively.
 const ALIKE: f64 = 1e-6;
 
+/// More sheets than these, or more triangles along one edge, are no export of a solid from both sides: each is compared with the others.
+const MOST_SHEETS: usize = 10_000;
+const MOST_ALONG: usize = 16;
+
 /// The first of each pair of sheets that lie on each other, back to back; none if some have no such
 /// other.
 pub fn fronts(mesh: &Triangles) -> Option<Triangles> {
     let welded = weld(&mesh.positions);
-    let mut sheets = sheets(mesh, &welded);
-    let mut kept = Vec::new();
-    while !sheets.is_empty() {
-        let front = sheets.remove(0);
-        let back = sheets.iter().position(|back| front.is_backed_by(back))?;
-        sheets.remove(back);
-        kept.extend(front.triangles);
+    let sheets = sheets(mesh, &welded).filter(|sheets| sheets.len() <= MOST_SHEETS)?;
+    let (mut kept, mut paired) = (Vec::new(), vec![false; sheets.len()]);
+    for (place, front) in sheets.iter().enumerate() {
+        if std::mem::replace(&mut paired[place], true) {
+            continue;
+        }
+        let back = (place + 1..sheets.len()).find(|&back| !paired[back] && front.is_backed_by(&sheets[back]))?;
+        paired[back] = true;
+        kept.extend(front.triangles.iter().copied());
     }
     kept.sort_unstable();
-    let indices = kept.iter().map(|&triangle| mesh.indices[triangle as usize]).collect();
+    let indices = kept.iter().map(|&triangle: &u32| mesh.indices[triangle as usize]).collect();
     Some(Triangles { indices, ..mesh.clone() })
 }
 
@@ -62,13 +68,16 @@ fn corners(mesh: &Triangles, triangle: u32) -> [DVec3; 3] {
     mesh.indices[triangle as usize].map(|corner| mesh.positions[corner as usize].as_dvec3())
 }
 
-/// All sheets, in the order of their first triangles.
-fn sheets(mesh: &Triangles, welded: &[u32]) -> Vec<Sheet> {
+/// All sheets, in the order of their first triangles; none where more triangles lie along an edge than can be told apart.
+fn sheets(mesh: &Triangles, welded: &[u32]) -> Option<Vec<Sheet>> {
     let ends = |triangle: u32| mesh.indices[triangle as usize].map(|corner| welded[corner as usize]);
     let mut along: HashMap<[u32; 2], Vec<u32>> = HashMap::new();
     for triangle in 0..mesh.indices.len() as u32 {
         let [a, b, c] = ends(triangle);
         [[a, b], [b, c], [c, a]].iter().for_each(|edge| along.entry(*edge).or_default().push(triangle));
+    }
+    if along.values().any(|triangles| triangles.len() > MOST_ALONG) {
+        return None;
     }
     let at = |corner: u32| mesh.positions[corner as usize];
     let mut taken = vec![false; mesh.indices.len()];
@@ -95,7 +104,7 @@ fn sheets(mesh: &Triangles, welded: &[u32]) -> Vec<Sheet> {
         }
         sheets.push(Sheet::of(triangles, mesh));
     }
-    sheets
+    Some(sheets)
 }
 
 /// The cosine between two triangles at their common edge, as their apexes lie: 1 where one folds

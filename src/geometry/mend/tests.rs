@@ -44,6 +44,22 @@ fn what_is_a_body_stays_as_it_is() {
     }
 }
 
+/// A stone and its mirror image as large, wound inwards: together they enclose nothing, and yet they are two bodies.
+#[test]
+fn a_mirror_image_is_turned() {
+    let image = turned(at(cube(), Vec3::X * 5.0, 1.0), &(0..12).collect::<Vec<_>>());
+    let (mesh, mended) = Triangles::joined([&cube(), &image]).mended(HAIR);
+    assert_eq!((volume(&mesh), mended), (Some(16.0), only(0, 12)));
+}
+
+/// What no export makes is given up in time: many triangles at one edge, from both sides.
+#[test]
+fn crowds_of_triangles_are_left_as_they_are() {
+    let mut crowd = Triangles { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], ..Triangles::default() };
+    crowd.indices = (0..40_000).map(|i| if i % 2 == 0 { [0, 1, 2] } else { [0, 2, 1] }).collect();
+    assert_eq!(volume(&crowd.mended(HAIR).0), None);
+}
+
 #[test]
 fn faces_that_are_there_twice_go() {
     let back = turned(cube(), &(0..12).collect::<Vec<_>>());
