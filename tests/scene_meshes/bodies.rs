@@ -169,6 +169,9 @@ fn two_media_on_one_body_are_refused() {
     for words in ["`prism: top`", "`prism: rest`", "`glass`", "`water`", "one closed body"] {
         assert!(error.contains(words), "{words}: {error}");
     }
+    // Nor are two media that something opaque keeps apart from each other: they are open, and told so.
+    let text = format!("{VERTICES}usemtl G\n{TOP}usemtl W\n{LEFT}usemtl M\n{RIGHT}{ENDS}");
+    assert!(files.try_scene("setting.obj", &text, "").is_ok());
     // Two bodies of their own are none of its business.
     let text = format!("{VERTICES}usemtl G\n{TOP}{LEFT}{RIGHT}{ENDS}usemtl W\n{TOP}{LEFT}{RIGHT}{ENDS}");
     assert!(files.try_scene("bodies.obj", &text, "").is_ok());

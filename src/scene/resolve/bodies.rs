@@ -251,21 +251,24 @@ impl Workshop<'_> {
             .flat_map(|&surface| sets(&of_surface(surface)).into_iter().map(move |set| (set, surface)))
             .map(|(set, surface)| self.join(&set, surface))
             .partition(Open::is_solid);
-        for set in sets(&all) {
-            let here = |open: &Open| open.members.iter().all(|member| set.contains(member));
-            let (inside, outside): (Vec<Open>, Vec<Open>) = open.into_iter().partition(here);
-            open = outside;
-            let opaque: Vec<usize> = opaque.iter().copied().filter(|piece| set.contains(piece)).collect();
-            match self.close(&inside, &opaque)? {
-                Some(body) => done.push(body),
-                None => open.extend(inside),
+        let places: Vec<Vec<usize>> = sets(&all);
+        let set_of: BTreeMap<usize, usize> =
+            places.iter().enumerate().flat_map(|(set, pieces)| pieces.iter().map(move |&piece| (piece, set))).collect();
+        let mut inside: Vec<Vec<Open>> = places.iter().map(|_| Vec::new()).collect();
+        open.drain(..).for_each(|part| inside[set_of[&part.members[0]]].push(part));
+        for (inside, set) in inside.into_iter().zip(&places) {
+            self.refuse_two_media(&inside)?;
+            let opaque: Vec<usize> = set.iter().copied().filter(|piece| opaque.contains(piece)).collect();
+            for alike in of_each_surface(inside) {
+                match self.close(&alike, &opaque) {
+                    Some(body) => done.push(body),
+                    None => open.extend(alike),
+                }
             }
         }
         // What is left of a medium may lack no more than a hair between its parts.
-        for surface in surfaces {
-            let (alike, others): (Vec<Open>, Vec<Open>) = open.into_iter().partition(|open| open.surface == surface);
-            open = others;
-            match if alike.len() > 1 { self.close(&alike, &[])? } else { None } {
+        for alike in of_each_surface(open) {
+            match self.close(&alike, &[]) {
                 Some(body) => done.push(body),
                 None => done.extend(alike),
             }
@@ -273,20 +276,24 @@ impl Workshop<'_> {
         done.into_iter().map(|open| self.body(open)).collect()
     }
 
-    /// The one body that open pieces become together, if opaque ones close it.
-    fn close(&self, open: &[Open], opaque: &[usize]) -> Result<Option<Open>, Refused> {
-        let [first, rest @ ..] = open else { return Ok(None) };
-        if rest.is_empty() && opaque.is_empty() {
-            return Ok(None);
+    /// Clear pieces of several media that close one body without anything opaque.
+    fn refuse_two_media(&self, open: &[Open]) -> Result<(), Refused> {
+        let [first, rest @ ..] = open else { return Ok(()) };
+        let Some(other) = rest.iter().find(|open| open.surface != first.surface) else { return Ok(()) };
+        match self.join(&members(open), first.surface).is_solid() {
+            true => Err(Refused::Media([first.members[0], other.members[0]])),
+            false => Ok(()),
         }
-        let mut members: Vec<usize> = open.iter().flat_map(|open| open.members.iter().copied()).collect();
-        members.sort_unstable();
-        let with = |opaque: &[usize]| self.join(&[&members, opaque].concat(), first.surface);
-        let Some(joined) = [with(&[]), with(opaque)].into_iter().find(Open::is_solid) else { return Ok(None) };
-        match rest.iter().find(|open| open.surface != first.surface) {
-            Some(other) => Err(Refused::Media([first.members[0], other.members[0]])),
-            None => Ok(Some(Open { members, ..joined })),
-        }
+    }
+
+    /// The one body that open pieces of one medium become together, with opaque ones if these close it.
+    fn close(&self, open: &[Open], opaque: &[usize]) -> Option<Open> {
+        let (first, members) = (open.first()?, members(open));
+        let with =
+            |opaque: &[usize]| Some(self.join(&[&members, opaque].concat(), first.surface)).filter(Open::is_solid);
+        let alone = (open.len() > 1).then(|| with(&[])).flatten();
+        let joined = alone.or_else(|| (!opaque.is_empty()).then(|| with(opaque)).flatten())?;
+        Some(Open { members, ..joined })
     }
 
     fn triangles(&self, pieces: &[usize]) -> Triangles {
@@ -314,6 +321,19 @@ impl Workshop<'_> {
         };
         Ok(Body { members, mesh, mended })
     }
+}
+
+/// All pieces of open parts, in their order.
+fn members(open: &[Open]) -> Vec<usize> {
+    let mut members: Vec<usize> = open.iter().flat_map(|open| open.members.iter().copied()).collect();
+    members.sort_unstable();
+    members
+}
+
+fn of_each_surface(open: Vec<Open>) -> impl Iterator<Item = Vec<Open>> {
+    let mut alike: BTreeMap<u32, Vec<Open>> = BTreeMap::new();
+    open.into_iter().for_each(|open| alike.entry(open.surface).or_default().push(open));
+    alike.into_values()
 }
 
 impl Open {
