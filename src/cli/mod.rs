@@ -178,7 +178,7 @@ fn meant(path: &Path) -> Option<String> {
 fn surplus(error: &clap::Error) -> Option<SceneError> {
     let context = error.get(ContextKind::InvalidSubcommand).or(error.get(ContextKind::InvalidArg));
     let Some(ContextValue::String(second)) = context else { return None };
-    let words = || std::env::args().skip(1);
+    let words = || std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
     let kinds = [ErrorKind::UnknownArgument, ErrorKind::ArgumentConflict];
     if !kinds.contains(&error.kind()) || second.starts_with('-') || second.starts_with('<') {
         return None;

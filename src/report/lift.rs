@@ -12,8 +12,9 @@ pub const AMOUNTS: [f64; 9] = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.
 /// ΔE2000 that [`AMOUNTS`] of light make in a pixel.
 pub type Rise = [f64; AMOUNTS.len()];
 
-/// Halvings of the interval that the percentile is sought in.
-const STEPS: usize = 12;
+/// To this share of it the percentile is sought, in so many halvings at most.
+const NEAR: f64 = 1e-3;
+const STEPS: usize = 40;
 
 /// An error without the light that may be missing, and which pixel has it.
 #[derive(Clone, Copy, Debug)]
@@ -30,6 +31,9 @@ pub fn highest(seen: &[Seen], rises: &[Rise], needed: usize) -> f64 {
     let rise = rises.iter().map(|rise| along(&AMOUNTS, rise, most)).fold(0.0, f64::max);
     let mut high = seen[seen.len() - 1].error + rise;
     for _ in 0..STEPS {
+        if high - low <= NEAR * high {
+            break;
+        }
         let middle = 0.5 * (low + high);
         let costs = seen.par_iter().map(|seen| cost(&rises[seen.pixel], middle - seen.error)).collect();
         if cheapest(costs, needed) <= seen.len() as f64 { low = middle } else { high = middle }

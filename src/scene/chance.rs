@@ -103,8 +103,10 @@ struct Lobes<'a> {
 
 impl<'a> Lobes<'a> {
     fn of(scene: &'a Scene) -> Self {
-        let all: Vec<_> =
-            scene.objects.iter().filter_map(|object| Some((object.name.as_str(), alpha(scene, object)?))).collect();
+        let all: Vec<_> = (0..)
+            .zip(&scene.objects)
+            .filter_map(|(id, object)| Some((object.name.as_str(), alpha(scene, ShapeId(id), object)?)))
+            .collect();
         let least = all
             .iter()
             .map(|(_, alpha)| *alpha)
@@ -122,13 +124,13 @@ impl<'a> Lobes<'a> {
 }
 
 /// The α of the sharpest lobe of an object's surface, 0 if it is smooth; `None` if it has no lobe.
-fn alpha(scene: &Scene, object: &Object) -> Option<f64> {
+fn alpha(scene: &Scene, id: ShapeId, object: &Object) -> Option<f64> {
     let (own, sharper) = match scene.surfaces[object.surface as usize] {
         Surface::Black | Surface::Diffuse { .. } => return None,
         Surface::Conductor { alpha, .. } => (alpha, 1.0),
         Surface::Dielectric(interface) => {
-            let eta = index(scene, interface.medium);
-            (interface.alpha, ((eta - 1.0) / (SQRT_2 * eta)).max(THINNEST))
+            let eta = least_contrast(scene, id, interface.medium);
+            (interface.alpha, ((1.0 - 1.0 / eta) / SQRT_2).max(THINNEST))
         }
     };
     let least = match scene.patterns.get(&object.surface) {
@@ -136,6 +138,18 @@ fn alpha(scene: &Scene, object: &Object) -> Option<f64> {
         _ => own,
     };
     Some(if least < MIRROR_ALPHA { 0.0 } else { f64::from(least) * sharper })
+}
+
+/// The smallest ratio, above 1, of the indices of a solid's medium and of another that it may stand in or touch.
+fn least_contrast(scene: &Scene, id: ShapeId, medium: MediumId) -> f64 {
+    let beside =
+        scene.world.near(id).filter_map(|(other, _)| match scene.surfaces[scene.object(other).surface as usize] {
+            Surface::Dielectric(interface) => Some(interface.medium),
+            _ => None,
+        });
+    let own = index(scene, medium);
+    let others = beside.chain([MediumId::OUTSIDE]).filter(|other| *other != medium).map(|other| index(scene, other));
+    others.map(|other| (own / other).max(other / own)).fold(f64::INFINITY, f64::min)
 }
 
 /// What is looked at.
@@ -350,7 +364,11 @@ mod tests {
         emission = { spectrum = \"D65\", luminance = 1000 }\n";
 
     fn chance(more: &str) -> (Chance, Decision) {
-        let text = Text::new("scene.toml", format!("{CAMERA}{LAMP}{more}"));
+        in_medium("", more)
+    }
+
+    fn in_medium(outside: &str, more: &str) -> (Chance, Decision) {
+        let text = Text::new("scene.toml", format!("{outside}{CAMERA}{LAMP}{more}"));
         let scene = resolve(text, &Library::new(Vec::new()), &Overrides::default());
         of(&scene.unwrap_or_else(|error| panic!("{error}")), &Density::visible())
     }
@@ -393,6 +411,15 @@ mod tests {
         assert!((luminance(&satin(0.05)) / expected - 1.0).abs() < 1e-3, "{} {expected}", luminance(&satin(0.05)));
         // Wide lobes count as matt.
         assert!(luminance(&satin(0.3)) < 0.01 * luminance(&satin(0.05)));
+    }
+
+    /// The lobe through glass of 1.5 is α (1 − 1/1.5)/√2 wide in air, and in a liquid of 1.25 half of that: four times as much comes by it.
+    #[test]
+    fn rough_glass_is_sharper_in_a_liquid() {
+        let frosted = "[materials.liquid.dielectric]\nior = 1.25\n[materials.frost.dielectric]\nior = 1.5\nroughness = 0.3\n\
+            [[objects]]\nmaterial = \"frost\"\nshape.sphere = { radius = 0.3, center = [0, 0, 0.4] }\n";
+        let [air, liquid] = ["", "outside = \"liquid\"\n"].map(|outside| in_medium(outside, frosted).0.brightest[1]);
+        assert!((liquid / air / 4.0 - 1.0).abs() < 1e-3, "{air} {liquid}");
     }
 
     #[test]

@@ -150,7 +150,7 @@ fn counts(given: &[u32]) -> Result<Vec<u32>, SceneError> {
 }
 
 fn command() -> String {
-    let words = std::env::args().skip(1).map(|word| quoted(&word));
+    let words = std::env::args_os().skip(1).map(|word| quoted(&word.to_string_lossy()));
     std::iter::once("spectrel".into()).chain(words).collect::<Vec<_>>().join(" ")
 }
 
