@@ -25,8 +25,8 @@ enum Kind {
 const LENGTHS: [(&str, f64); 8] =
     [("µm", 1e-6), ("μm", 1e-6), ("um", 1e-6), ("nm", 1e-9), ("mm", 1e-3), ("cm", 1e-2), ("dm", 1e-1), ("m", 1.0)];
 
-/// The absorption coefficient that a file states.
-pub(super) fn coefficient(file: &mut Columns) -> Result<Spectrum, Fault> {
+/// The absorption coefficient that a file states, and the wavelengths that it was measured at, nm.
+pub(super) fn coefficient(file: &mut Columns) -> Result<(Spectrum, Option<(f64, f64)>), Fault> {
     let index = file.columns.iter().position(|column| column.name == "n");
     if let (Some(index), true) = (index, file.columns.len() > 1) {
         file.columns.remove(index);
@@ -34,12 +34,16 @@ pub(super) fn coefficient(file: &mut Columns) -> Result<Spectrum, Fault> {
     let [column] = file.columns.as_slice() else {
         return Err(Fault::at(0, format!("{} columns of values, expected one", file.columns.len())));
     };
+    if is_scaled(&column.name) {
+        return Err(no_unit(column));
+    }
     let kind = kind(column);
     let notes = &mut file.notes;
     let table = match (kind, per_length(&column.name)) {
         (Kind::Extinction, _) => {
             let k = column.table("k", Bound::NonNegative, Outside::Hold, notes)?;
-            return Ok(Spectrum::Table(k).absorption_from_k());
+            let range = k.range_nm();
+            return Ok((Spectrum::Table(k).absorption_from_k(), range));
         }
         (Kind::Transmittance, _) => {
             let metres = thickness(column, file.comments.iter().map(|line| line.text))?;
@@ -61,14 +65,24 @@ pub(super) fn coefficient(file: &mut Columns) -> Result<Spectrum, Fault> {
         }
         (Kind::Coefficient, None) => return Err(no_unit(column)),
     };
-    Ok(Spectrum::Table(table))
+    let range = table.range_nm();
+    Ok((Spectrum::Table(table), range))
+}
+
+/// Whether a name speaks of decibels, concentrations, logarithms or powers of ten, which no unit of length tells.
+fn is_scaled(name: &str) -> bool {
+    let mut words = name.split(|c: char| !c.is_alphanumeric());
+    let plain = name.replace([' ', '^'], "").replace("⁻¹", "-1").replace('−', "-");
+    words.any(|word| ["db", "log", "log10", "lg", "ln"].contains(&word) || word.starts_with("mol") || word == "molar")
+        || ["10^", "×10", "x10^", "10**"].iter().any(|form| name.contains(form))
+        || plain.contains("m-1/m")
 }
 
 fn no_unit(column: &Column) -> Fault {
     let name = if column.name.is_empty() { "of values".to_owned() } else { format!("`{}`", column.name) };
     let message = format!(
         "the column {name} states no unit, expected `alpha_1/m`, `alpha_1/cm` or `alpha_1/mm` (natural base), \
-         `absorbance_1/cm` or `absorbance (10 mm)` (decadic), `transmittance (10 mm)`, or `k`"
+         `absorbance_1/cm` or `absorbance (10 mm)` (decadic), nothing molar, in dB or times a power of ten, `transmittance (10 mm)`, or `k`"
     );
     Fault::at(column.offset, message)
 }
@@ -79,7 +93,7 @@ fn kind(column: &Column) -> Kind {
     let first = plain.split(' ').next().unwrap_or_default();
     let is = |words: &[&str]| words.iter().any(|word| name.contains(word));
     match () {
-        () if is(&["absorbance", "optical density", "decadic", "log10"]) => Kind::Absorbance,
+        () if is(&["absorbance", "optical density", "decadic"]) => Kind::Absorbance,
         () if is(&["transmi"]) || first == "t" => Kind::Transmittance,
         // With a unit of length below the line, these letters are coefficients in many papers.
         () if per_length(name).is_some() => Kind::Coefficient,
@@ -92,8 +106,10 @@ fn kind(column: &Column) -> Kind {
 /// The metres of the unit of "1/cm", "cm^-1", "per mm" and the like, if a name states one.
 fn per_length(name: &str) -> Option<f64> {
     let plain = name.replace([' ', '^', '*', '(', ')', '[', ']', '{', '}'], "").replace("⁻¹", "-1").replace('−', "-");
+    let words: Vec<&str> = name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
     let states = |unit: &str| {
-        [format!("/{unit}"), format!("{unit}-1"), format!("per{unit}")].iter().any(|form| plain.contains(form.as_str()))
+        [format!("/{unit}"), format!("{unit}-1")].iter().any(|form| plain.contains(form.as_str()))
+            || words.array_windows().any(|[per, of]| *per == "per" && *of == unit)
     };
     LENGTHS.iter().find(|(unit, _)| states(unit)).map(|(_, metres)| *metres)
 }
@@ -148,7 +164,12 @@ mod tests {
     fn alpha(header: &str, value: &str) -> Result<f64, String> {
         let text = format!("{header}\n400;{value}\n600;{value}\n");
         let mut file = Columns::of(&text).map_err(|fault| fault.message)?;
-        coefficient(&mut file).map(|spectrum| spectrum.at(500.0)).map_err(|fault| fault.message)
+        coefficient(&mut file)
+            .map(|(spectrum, range)| {
+                assert_eq!(range, Some((400.0, 600.0)));
+                spectrum.at(500.0)
+            })
+            .map_err(|fault| fault.message)
     }
 
     #[test]
@@ -180,7 +201,19 @@ mod tests {
 
     #[test]
     fn what_lacks_a_unit_or_a_thickness_is_told() {
-        assert!(alpha("wavelength_nm;alpha", "1").unwrap_err().contains("states no unit"));
+        for header in [
+            "alpha",
+            "attenuation (dB/m)",
+            "alpha (10^4 cm^-1)",
+            "molar extinction (cm-1/M)",
+            "eps (L/mol/cm)",
+            "log10(alpha) (1/cm)",
+            "permeability",
+        ] {
+            let message = alpha(&format!("wavelength_nm;{header}"), "1").unwrap_err();
+            assert!(message.contains("states no unit"), "{header}: {message}");
+        }
+        assert_eq!(alpha("wavelength_nm;alpha per cm", "1"), Ok(100.0));
         assert!(alpha("wavelength_nm;transmittance", "1").unwrap_err().contains("needs the thickness"));
         assert!(alpha("wavelength_nm;absorbance", "1").unwrap_err().contains("needs the thickness"));
         assert!(alpha("wavelength_nm;T (10 mm)", "0").unwrap_err().contains("a transmittance is 0"));

@@ -87,6 +87,15 @@ impl Glass<'_> {
         let given: Vec<f64> =
             self.coefficients.iter().map(|word| Ok(word.number()?.value)).collect::<Result<_, _>>()?;
         let number = self.formula.map(|word| word.number()).transpose()?.map_or(0.0, |number| number.value);
+        // A pole without its place is another glass.
+        let lacks_one = match number as u32 {
+            2 | 6 | 11 => given.len() % 2 == 1,
+            9 => given.len().is_multiple_of(2),
+            _ => false,
+        };
+        if given.is_empty() || lacks_one {
+            return Err(fault(format!("{} coefficients in its line CD: one is missing", given.len())));
+        }
         let Some((kind, coefficients)) = formula(number as u32, &given) else {
             return Err(fault(format!("the dispersion formula {number}, expected 1 to 13")));
         };
@@ -182,6 +191,10 @@ mod tests {
         assert!(says(None).contains("2 glasses: name one, as `a.agf#N-BK7`"), "{}", says(None));
         assert!(says(Some("N-BK8")).contains("did you mean `N-BK7`"), "{}", says(Some("N-BK8")));
         assert!(read("", "a.agf", None).is_err());
+        for line in ["CD 1.03961212 6.00069867E-03 2.31792344E-01 2.00179144E-02 1.01046945\n", ""] {
+            let text = format!("NM N-BK7 2 517642.251 1.5168 64.17\n{line}LD 0.3 2.5\n");
+            assert!(read(&text, "a.agf", None).unwrap_err().message.contains("one is missing"), "{line}");
+        }
     }
 
     #[test]

@@ -9,7 +9,8 @@
 //! ```
 //!
 //! Fields that end in a wavelength and speak of `nm` or `spec` are the spectrum; a sample is told
-//! by its name or its place, as `chart.ti3#A1`. `SPECTRAL_NORM 100` says that values are percent.
+//! by its name or its place, as `chart.ti3#A1`. `SPECTRAL_NORM 100` says that values are percent; where nothing is said, values beyond what
+//! any reflectance has say so.
 
 use super::error::Fault;
 use super::rows::Separator;
@@ -20,12 +21,15 @@ use super::{About, Sample, Source, Spectrum, Table, nearest};
 /// Fields that name a sample.
 const NAMES: [&str; 5] = ["sample_id", "sample_name", "sampleid", "samplename", "sample_loc"];
 
+/// Above this no reflectance is a share of 1, fluorescence included.
+const MOST: f64 = 1.5;
+
 /// What a file holds before a sample is chosen.
 struct Chart<'a> {
     fields: Vec<Word<'a>>,
     rows: Vec<Vec<Word<'a>>>,
-    /// What a perfect reflector has.
-    whole: f64,
+    /// What a perfect reflector has, if it is said.
+    whole: Option<f64>,
 }
 
 /// Whether a text is of this kind, whatever its name.
@@ -45,16 +49,24 @@ pub(super) fn read(text: &str, name: &str, sample: Option<&str>) -> Result<(Spec
     }
     let row = chart.sample(name, sample)?;
     let mut notes = Vec::new();
+    let whole = chart.whole.unwrap_or_else(|| {
+        let values = chart.rows.iter().flat_map(|row| columns.iter().filter_map(|(column, _)| row.get(*column)));
+        let largest = values.filter_map(|word| word.number().ok()).map(|number| number.value).fold(0.0, f64::max);
+        if largest > MOST {
+            notes.push(format!("no SPECTRAL_NORM is stated: values of up to {largest} are taken for percent"));
+            return 100.0;
+        }
+        1.0
+    });
+    if row.len() != chart.fields.len() {
+        let message = format!("{} fields, expected {}", row.len(), chart.fields.len());
+        return Err(Fault::at(row.first().map_or(0, |word| word.offset), message));
+    }
     let (mut nm, mut values) = (Vec::new(), Vec::new());
     for (column, wavelength) in columns {
-        let place = row.first().map_or(0, |word| word.offset);
-        let word = row.get(column).ok_or_else(|| {
-            let message = format!("{} fields, expected {}", row.len(), chart.fields.len());
-            Fault::at(place, message)
-        })?;
-        let number = word.number()?;
+        let number = row[column].number()?;
         nm.push(Number { value: wavelength, ..number });
-        values.push(Number { value: number.value / chart.whole, ..number });
+        values.push(Number { value: number.value / whole, ..number });
     }
     let what = "a reflectance";
     let table = Table::from_numbers(&nm, &values, what, Bound::Fraction, Outside::Hold, &mut notes)?;
@@ -65,17 +77,18 @@ pub(super) fn read(text: &str, name: &str, sample: Option<&str>) -> Result<(Spec
 
 impl<'a> Chart<'a> {
     fn of(text: &'a str) -> Result<Self, Fault> {
-        let mut chart = Chart { fields: Vec::new(), rows: Vec::new(), whole: 1.0 };
+        let mut chart = Chart { fields: Vec::new(), rows: Vec::new(), whole: None };
         let (mut in_format, mut in_data, mut start) = (false, false, 0);
         for line in text.split_inclusive('\n') {
             let mut words = Separator::Mark(' ').words(line, start);
-            words.retain(|word| !word.text.is_empty());
+            // Two blanks are no word, a quoted name without letters is one.
+            words.retain(|word| !word.text.is_empty() || text[..word.offset].ends_with('"'));
             start += line.len();
             match words.first().map(|word| word.text) {
                 None => {}
                 Some("BEGIN_DATA") => in_data = true,
                 Some("END_DATA") => in_data = false,
-                Some("SPECTRAL_NORM") if words.len() > 1 => chart.whole = words[1].number()?.value,
+                Some("SPECTRAL_NORM") if words.len() > 1 => chart.whole = Some(words[1].number()?.value),
                 _ if in_data => chart.rows.push(words),
                 Some(first) => {
                     // The fields may stand on the line of the keyword or below it.
@@ -88,7 +101,7 @@ impl<'a> Chart<'a> {
                 }
             }
         }
-        match chart.whole > 0.0 {
+        match chart.whole.is_none_or(|whole| whole > 0.0) {
             true => Ok(chart),
             false => Err(Fault::new("SPECTRAL_NORM is not above 0")),
         }
@@ -157,5 +170,12 @@ mod tests {
         let short = CHART.replace("\t30\t50", "\t30");
         let message = read(&short, "a.ti3", Some("2")).unwrap_err().in_file("a.ti3", &short);
         assert!(message.to_string().starts_with("a.ti3:10:1: 4 fields, expected 5"), "{message}");
+        // Percent without a word of it, a name without letters, and a name of two words that shifts the row.
+        let (percent, about) = read(&CHART.replace("SPECTRAL_NORM \"100\"\n", ""), "a.ti3", Some("A2")).unwrap();
+        assert!((percent.at(450.0) - 0.4).abs() < 1e-15 && about.notes[0].contains("percent"));
+        let nameless = CHART.replace("\"dark red\"", "\"\"");
+        assert!((read(&nameless, "a.ti3", Some("1")).unwrap().0.at(450.0) - 0.15).abs() < 1e-15);
+        let shifted = CHART.replace("\"dark red\"", "dark red");
+        assert!(read(&shifted, "a.ti3", Some("1")).unwrap_err().message.contains("6 fields, expected 5"));
     }
 }

@@ -11,6 +11,7 @@ use super::rows::Rows;
 use super::table::{Bound, Number, Outside, Table};
 use super::wave_unit::WaveUnit;
 use super::words::Word;
+use super::{LAMBDA_MAX_NM, LAMBDA_MIN_NM};
 
 /// A column of values with the wavelengths it was measured at.
 pub(super) struct Column {
@@ -61,11 +62,11 @@ impl<'a> Columns<'a> {
             let first = block.data.first().and_then(|row| row.first()).map_or(0, |word| word.offset);
             // Words of a comment count as a header where there is no other and they name each
             // column.
-            let comment = read.comments.iter().rfind(|comment| comment.offset < first).copied();
+            let comment = read.comments.iter().rfind(|comment| comment.offset < first).filter(|_| number == 0).copied();
             let comment = comment.map(|line| separator.words(line.text, line.offset)).unwrap_or_default();
             let header = match Header::of(&block.head, count) {
                 Some(header) => header,
-                None if number == 0 && comment.len() == count && WaveUnit::stated(comment[0].text).is_some() => {
+                None if comment.len() == count && WaveUnit::stated(comment[0].text).is_some() => {
                     Header { names: comment, units: &[] }
                 }
                 None => Header { names: Vec::new(), units: &[] },
@@ -205,6 +206,17 @@ impl<'a> Block<'a> {
                 let name = header.names.first().map_or("wavelength", |word| word.text);
                 note_likely_um(nm, name, &mut read.notes);
                 Ok(())
+            }
+            (
+                Some(unit @ (WaveUnit::Metre | WaveUnit::Angstrom | WaveUnit::ElectronVolt | WaveUnit::PerCentimetre)),
+                Some(first),
+            ) if !nm.iter().any(|nm| (LAMBDA_MIN_NM..=LAMBDA_MAX_NM).contains(&nm.value)) => {
+                let message = format!(
+                    "by the unit {} of the header no wavelength is visible: {} nm is the first",
+                    unit.symbol(),
+                    first.value
+                );
+                Err(Fault::at(first.offset, message))
             }
             _ => Ok(()),
         }

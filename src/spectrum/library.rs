@@ -63,6 +63,7 @@ impl Library {
             Format::Agf => agf_file::read(text, name, part_of(name)),
             Format::Spdx => Err(not_a("an index of refraction: this format holds lights and reflectances")),
             Format::Cgats => Err(not_a("an index of refraction: this format holds reflectances")),
+            Format::Columns if part_of(name).is_some() => Err(no_parts()),
             Format::Columns => {
                 let (n, k, about) = table_file::read_ior(text, name)?;
                 let range_nm = [n.range_nm(), k.range_nm()].into_iter().flatten().reduce(common_range);
@@ -186,11 +187,15 @@ impl Library {
                     cgats_file::read(text, name, part_of(name))?
                 }
                 Format::Cgats => return Err(not_a(&format!("a {quantity}: of charts, reflectances are read"))),
+                Format::Columns if part_of(name).is_some() => return Err(no_parts()),
                 Format::Columns => table_file::read_curve(text, name, quantity)?,
                 Format::Spdx if quantity != Quantity::Absorption => spdx_file::read(text, name, quantity)?,
                 Format::Spdx => return Err(not_a("an absorption: this format holds lights and reflectances")),
                 Format::Agf if quantity == Quantity::Absorption => {
                     let ior = agf_file::read(text, name, part_of(name))?;
+                    if ior.k == Spectrum::Constant(0.0) {
+                        return Err(not_a("an absorption: this glass has no lines IT of transmittances"));
+                    }
                     return Ok(Dataset { spectrum: ior.k.absorption_from_k(), about: ior.about });
                 }
                 Format::Agf => return Err(not_a(&format!("a {quantity} but a glass catalogue"))),
@@ -204,7 +209,7 @@ impl Library {
                 }
                 Format::Yaml => return Err(not_a(&format!("a {quantity} but an index of refraction"))),
             };
-            let about = About { range_nm: spectrum.range_nm(), ..about };
+            let about = About { range_nm: about.range_nm.or(spectrum.range_nm()), ..about };
             Ok(Dataset { spectrum, about })
         })
     }
@@ -277,6 +282,11 @@ struct Found {
     text: String,
     name: String,
     format: Format,
+}
+
+/// Of a file that is a table, where a part of it was asked for.
+fn no_parts() -> Fault {
+    Fault::new("this file is one table and has no parts to name after `#`")
 }
 
 fn not_a(what: &str) -> Fault {

@@ -137,13 +137,13 @@ impl Word<'_> {
 /// one.
 fn blank_separated(row: &str, start: usize) -> Vec<Word<'_>> {
     let mut spans: Vec<(usize, usize)> = Vec::new();
-    let mut open = 0_i32;
+    let (mut open, units) = (0_i32, is_unit_row(row));
     for word in row.split_whitespace() {
         let from = word.as_ptr() as usize - row.as_ptr() as usize;
         let to = from + word.len();
         let count = |marks: [char; 2]| word.matches(marks).count() as i32;
         match spans.last_mut() {
-            Some(last) if open > 0 || (word.starts_with(['(', '[']) && !is_unit_row(row)) => last.1 = to,
+            Some(last) if open > 0 || (word.starts_with(['(', '[']) && !units) => last.1 = to,
             _ => spans.push((from, to)),
         }
         open = (open + count(['(', '[']) - count([')', ']'])).max(0);

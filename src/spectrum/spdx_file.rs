@@ -14,6 +14,14 @@ pub(super) fn read(text: &str, name: &str, quantity: Quantity) -> Result<(Spectr
         Fault::at_line(place.row as usize, place.col as usize, error)
     })?;
     let named = |node: &Node, name: &str| node.tag_name().name() == name;
+    let stated = document.descendants().find(|node| named(node, "SpectralQuantity"));
+    let stated = stated.and_then(|node| node.text()).unwrap_or_default().trim().to_lowercase();
+    let is_reflectance = stated == "reflectance";
+    if !stated.is_empty() && is_reflectance != (quantity == Quantity::Reflectance)
+        || ["transmittance", "absorptance"].contains(&stated.as_str())
+    {
+        return Err(Fault::new(format!("its spectral quantity is `{stated}`, expected one of {}", quantity.as_str())));
+    }
     let (mut nm, mut values) = (Vec::new(), Vec::new());
     for node in document.descendants().filter(|node| named(node, "SpectralData")) {
         let place = node.range().start;
@@ -55,6 +63,11 @@ mod tests {
         let says = |text: &str| read(text, "a", Quantity::Illuminant).unwrap_err().in_file("a.spdx", text).to_string();
         let bad = LAMP.replace("0.5", "half");
         assert!(says(&bad).starts_with("a.spdx:6:1: `SpectralData` without a value"), "{}", says(&bad));
+        let as_reflectance = read(LAMP, "a.spdx", Quantity::Reflectance).unwrap_err().message;
+        assert!(as_reflectance.contains("`flux`"), "{as_reflectance}");
+        for other in ["reflectance", "transmittance"] {
+            assert!(says(&LAMP.replace(">flux<", &format!(">{other}<"))).contains(other));
+        }
         assert!(says("<a>").starts_with("a.spdx:1:"), "{}", says("<a>"));
         assert!(says("<a/>").contains("the table is empty"), "{}", says("<a/>"));
     }

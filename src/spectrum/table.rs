@@ -50,7 +50,7 @@ impl Bound {
         let nearest = match self {
             Self::Positive => (value > 0.0).then_some(value),
             Self::NonNegative => above(K_NOISE),
-            Self::Power => above(K_NOISE.max(POWER_NOISE * peak)),
+            Self::Power => above(POWER_NOISE * peak),
             Self::Fraction => (low..=high).contains(&value).then_some(value.clamp(0.0, 1.0)),
             Self::Transmittance => (value > 0.0 && value <= high).then_some(value.min(1.0)),
             Self::Any => Some(value),

@@ -55,11 +55,11 @@ pub(super) fn read_ior(text: &str, name: &str) -> Result<(Spectrum, Spectrum, Ab
 /// A reflectance, an absorption coefficient (m⁻¹, natural base) or a light.
 pub(super) fn read_curve(text: &str, name: &str, quantity: Quantity) -> Result<(Spectrum, About), Fault> {
     let mut file = Columns::of(text)?;
-    let spectrum = match quantity {
+    let (spectrum, range_nm) = match quantity {
         Quantity::Absorption => coefficient(&mut file)?,
-        _ => values(&mut file, quantity)?,
+        _ => (values(&mut file, quantity)?, None),
     };
-    Ok((spectrum, about(name, file.notes)))
+    Ok((spectrum, About { range_nm, ..about(name, file.notes) }))
 }
 
 fn values(file: &mut Columns, quantity: Quantity) -> Result<Spectrum, Fault> {

@@ -51,8 +51,12 @@ impl WaveUnit {
     pub fn stated(name: &str) -> Option<Self> {
         let name = name.to_lowercase();
         let plain = name.replace([' ', '^', '(', ')', '[', ']'], "").replace("⁻¹", "-1").replace('−', "-");
-        if plain.contains("wavenumber") || plain.ends_with("1/cm") || plain.ends_with("cm-1") {
+        let others = ["µm", "μm", "um", "1/m", "m-1", "nm"].iter().any(|unit| plain.ends_with(unit));
+        if plain.ends_with("1/cm") || plain.ends_with("cm-1") || (plain.contains("wavenumber") && !others) {
             return Some(Self::PerCentimetre);
+        }
+        if plain.contains("wavenumber") {
+            return None;
         }
         let words: Vec<&str> = name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
         let states = |units: &[&str]| words.iter().any(|word| units.contains(word));
@@ -76,7 +80,8 @@ impl WaveUnit {
         }
     }
 
-    /// The unit that the numbers tell: the only one by which they reach into the visible.
+    /// The unit that the numbers tell: the only one by which they reach into the visible. Energies and wavenumbers may always be wavelengths
+    /// in the infrared instead.
     pub fn told(words: &[Word]) -> Option<Self> {
         let reaches = |unit: &Self| {
             let nm: Vec<f64> = words.iter().filter_map(|word| unit.nm(*word).ok()).map(|nm| nm.value).collect();
@@ -84,9 +89,9 @@ impl WaveUnit {
                 nm.iter().fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), &nm| (low.min(nm), high.max(nm)));
             low < LAMBDA_MAX_NM && high > LAMBDA_MIN_NM
         };
-        let usual = [Self::Nanometre, Self::Micrometre, Self::Angstrom, Self::ElectronVolt];
-        let mut possible = usual.into_iter().filter(reaches);
-        possible.next().filter(|_| possible.next().is_none())
+        let lengths = [Self::Nanometre, Self::Micrometre, Self::Angstrom];
+        let mut possible = lengths.into_iter().chain([Self::ElectronVolt, Self::PerCentimetre]).filter(reaches);
+        possible.next().filter(|unit| lengths.contains(unit) && possible.next().is_none())
     }
 }
 
@@ -106,6 +111,8 @@ mod tests {
             ("lambda_m", Some(WaveUnit::Metre)),
             ("Energy (eV)", Some(WaveUnit::ElectronVolt)),
             ("wavenumber (cm^-1)", Some(WaveUnit::PerCentimetre)),
+            ("Wavenumber (1/µm)", None),
+            ("wavenumber", Some(WaveUnit::PerCentimetre)),
             ("wavelength", None),
             ("m", None),
         ] {
@@ -119,7 +126,8 @@ mod tests {
         assert_eq!(told("400", "700"), Some(WaveUnit::Nanometre));
         assert_eq!(told("0.4", "0.7"), Some(WaveUnit::Micrometre));
         assert_eq!(told("4000", "7000"), Some(WaveUnit::Angstrom));
-        assert_eq!(told("1.6", "3.2"), Some(WaveUnit::ElectronVolt));
+        // eV or infrared µm; Å or 1/cm.
+        assert_eq!((told("1.6", "3.2"), told("5000", "25000")), (None, None));
         // µm or eV; nm or Å; nothing that anyone sees.
         assert_eq!(told("0.3", "2.5"), None);
         assert_eq!(told("300", "9000"), None);
