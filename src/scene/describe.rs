@@ -96,7 +96,8 @@ pub enum SamplerName {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Camera {
-    /// A glTF file whose camera this is; other keys win over what it says.
+    /// A glTF file whose camera this is, in metres and with y up, whatever `unit` and `up` a mesh of
+    /// the same file is given; other keys win over what it says.
     pub file: Option<Spanned<String>>,
     /// The name of the file's camera; its first one unless given.
     pub named: Option<Spanned<String>>,
