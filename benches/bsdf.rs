@@ -2,9 +2,10 @@
 
 use divan::{Bencher, black_box};
 use glam::Vec3;
-use spectrel::bsdf::{Bsdf, Directions, Frame, RoughDielectric, albedo, choose, dielectric};
+use spectrel::bsdf::{Bsdf, RoughDielectric, albedo, choose, dielectric};
 use spectrel::fresnel::{SpectralModel, dielectric::fresnel};
-use spectrel::spectrum::Lanes;
+use spectrel::math::Lanes;
+use spectrel::math::{Frame, Vectors};
 
 fn main() {
     divan::main();
@@ -89,8 +90,8 @@ fn eval_rough_glass(bencher: Bencher, model: &SpectralModel) {
 fn dispersive_interface(bencher: Bencher) {
     let points = points();
     let n2 = Lanes([2.46, 2.45, 2.44, 2.43, 2.42, 2.415, 2.41, 2.405]);
-    let (direction, normal) = (Directions::splat(Vec3::new(0.6, 0.0, -0.8)), Directions::splat(Vec3::Z));
-    let cos = direction.dot(&Directions::splat(-Vec3::Z));
+    let (direction, normal) = (Vectors::splat(Vec3::new(0.6, 0.0, -0.8)), Vectors::splat(Vec3::Z));
+    let cos = direction.dot(&Vectors::splat(-Vec3::Z));
     bencher.bench_local(|| {
         points.iter().fold(Lanes::ZERO, |sum, u| {
             let (n2, direction) = (black_box(&n2), black_box(&direction));

@@ -4,7 +4,8 @@ use divan::{Bencher, black_box};
 use spectrel::fresnel::{
     Fresnel, FresnelModel, RgbFresnel, RgbModel, Specimen, SpectralModel, Target, conductor, dielectric, exact,
 };
-use spectrel::spectrum::{Adaptation, Colorimeter, Lanes, Library, Observer, RgbSpace};
+use spectrel::math::Lanes;
+use spectrel::spectrum::{Adaptation, Colorimeter, Library, Observer, RgbSpace};
 use std::path::Path;
 
 fn main() {

@@ -14,14 +14,14 @@
 //!     → report            tables and comparisons, for people and for programs
 //! ```
 //!
-//! Parsing and resolving may fail; rendering cannot. `spectrum` and `fresnel` know no scene and are usable alone.
+//! `math` holds the numbers that all of them share. Parsing and resolving may fail; rendering cannot. `spectrum` and `fresnel` know no scene and are usable alone.
 //!
 //! Conventions, here once for all rooms:
 //!
 //! - Wavelengths are vacuum wavelengths in nm, names end in `_nm`; the visible range is 360–830 nm.
 //! - The complex index is N = n + i k with k ≥ 0, fields go as exp(−iωt); r_p = −r_s at normal incidence.
 //! - `cos_theta_i` is the cosine against the normal on the side of incidence, 0…1.
-//! - Directions are unit vectors pointing away from the surface: `wo` to the viewer, `wi` to the light.
+//! - Vectors are unit vectors pointing away from the surface: `wo` to the viewer, `wi` to the light.
 //! - Lengths are scene units; `meters_per_unit` gives their scale where absorption needs it.
 //! - Spectral radiance is in W m⁻² sr⁻¹ nm⁻¹; the film holds XYZ in cd/m².
 
@@ -36,6 +36,7 @@ pub mod fresnel;
 pub mod geometry;
 pub mod image;
 pub mod light;
+pub mod math;
 pub mod memory;
 pub mod render;
 pub mod report;

@@ -9,8 +9,8 @@ mod statistics;
 use glam::{DVec3, Vec3};
 use spectrel::bsdf::Bsdf;
 use spectrel::fresnel::SpectralModel;
-use spectrel::fresnel::quadrature::gauss;
-use spectrel::spectrum::Lanes;
+use spectrel::math::Lanes;
+use spectrel::math::quadrature::gauss;
 use statistics::{Random, chi_squared};
 use std::f64::consts::TAU;
 

@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 use proptest::prelude::*;
 use spectrel::bsdf::{Bsdf, albedo::albedo, conductor::MIRROR_ALPHA};
 use spectrel::fresnel::{Fresnel, SpectralModel, exact};
-use spectrel::spectrum::Lanes;
+use spectrel::math::Lanes;
 use statistics::Random;
 use statistics::directions::{above, unit, upper};
 

@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 use proptest::prelude::*;
 use spectrel::bsdf::{RoughDielectric, albedo, conductor::MIRROR_ALPHA};
 use spectrel::fresnel::{SpectralModel, exact};
-use spectrel::spectrum::Lanes;
+use spectrel::math::Lanes;
 use statistics::directions::{above, unit, upper};
 use statistics::{Random, chi_squared};
 use std::f64::consts::TAU;

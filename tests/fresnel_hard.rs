@@ -3,7 +3,7 @@
 
 use spectrel::fresnel::exact::{Reflection, reflect};
 use spectrel::fresnel::{conductor, dielectric};
-use spectrel::spectrum::Lanes;
+use spectrel::math::Lanes;
 
 const TABLE: &str = include_str!("data/fresnel_hard.csv");
 

@@ -4,7 +4,7 @@
 use proptest::prelude::*;
 use spectrel::fresnel::exact::{Reflection, reflect};
 use spectrel::fresnel::{SpectralModel, average, conductor, dielectric};
-use spectrel::spectrum::Lanes;
+use spectrel::math::Lanes;
 
 type Input = [f32; 4];
 

@@ -2,7 +2,7 @@
 
 use spectrel::fresnel::exact::reflect;
 use spectrel::fresnel::{conductor, dielectric};
-use spectrel::spectrum::Lanes;
+use spectrel::math::Lanes;
 use std::f64::consts::PI;
 
 fn cos(degrees: f64) -> f64 {

@@ -5,8 +5,8 @@ mod common;
 
 use spectrel::fresnel::SpectralModel;
 use spectrel::fresnel::exact::reflect;
+use spectrel::math::Lanes;
 use spectrel::scene::{Overrides, Scene, Surface};
-use spectrel::spectrum::Lanes;
 
 /// Largest error of F82 per wavelength over 380–780 nm.
 const F82_SPECTRAL: [(&str, f64); 6] = [

@@ -7,9 +7,10 @@ use spectrel::film::Develop;
 use spectrel::fresnel::{
     DielectricFresnel, Fresnel, FresnelModel, RgbCurve, RgbFresnel, RgbModel, Specimen, SpectralModel, Target, exact,
 };
+use spectrel::math::Lanes;
 use spectrel::scene::{Overrides, optics};
 use spectrel::spectrum::{
-    Adaptation, Colorimeter, Lanes, Observer, Outside, RgbSpace, Spectrum, Table, Upsampler, srgb_primaries,
+    Adaptation, Colorimeter, Observer, Outside, RgbSpace, Spectrum, Table, Upsampler, srgb_primaries,
 };
 use std::path::Path;
 

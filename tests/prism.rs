@@ -1,11 +1,12 @@
 //! Refraction measured as in a laboratory: a prism at minimum deviation, and diamond's critical angle.
 
 use glam::{DVec3, Vec3};
-use spectrel::bsdf::Directions;
 use spectrel::bsdf::dielectric::refract_lanes;
 use spectrel::fresnel::SpectralModel;
 use spectrel::geometry::{Convex, Departure, Plane, Points, Ray, Shape, ShapeId, Side, World};
-use spectrel::spectrum::{Lanes, Library};
+use spectrel::math::Lanes;
+use spectrel::math::Vectors;
+use spectrel::spectrum::Library;
 use std::path::Path;
 
 const APEX: f64 = 60.0;
@@ -23,8 +24,8 @@ fn refracted(direction: Vec3, normal: Vec3, n1: f32, n2: f32) -> Option<Vec3> {
     let cos = Lanes([-direction.dot(normal)]);
     let boundary = SpectralModel::Exact.dielectric(&Lanes([n1]), &Lanes([n2]), &cos);
     let out = refract_lanes(
-        &Directions::splat(direction),
-        &Directions::splat(normal),
+        &Vectors::splat(direction),
+        &Vectors::splat(normal),
         &Lanes([n1 / n2]),
         &cos,
         &boundary.cos_theta_t,

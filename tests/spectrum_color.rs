@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
+use spectrel::math::Lanes;
 use spectrel::spectrum::{
-    Arena, Chromaticities, ColorMatching, Daylight, Density, Lanes, Library, Line, NODE_COUNT, Nodes, Observer,
-    Outside, RgbSpace, Sigmoid, Spectrum, Table, Tint, UpsampleTable, Upsampler, bradford, ciede2000, lab_from_xyz,
-    luminance, tristimulus, tristimulus_1nm, white_xyz, white_xyz_1nm,
+    Arena, Chromaticities, ColorMatching, Daylight, Density, Library, Line, NODE_COUNT, Nodes, Observer, Outside,
+    RgbSpace, Sigmoid, Spectrum, Table, Tint, UpsampleTable, Upsampler, bradford, ciede2000, lab_from_xyz, luminance,
+    tristimulus, tristimulus_1nm, white_xyz, white_xyz_1nm,
 };
 
 fn library() -> Library {

@@ -11,7 +11,7 @@
 //! - Valid for α in (0, 1], z_o in (0, 1]. Error below 1e-7 (panels agree to 1e-8; closed form at α = 1 to 1e-12).
 //! - Cost: 0.5 ms at α = 1e-3, 2–5 ms above 0.1; both of a dielectric 25–40 ms.
 
-use crate::fresnel::quadrature::{adaptive, gauss};
+use crate::math::quadrature::{adaptive, gauss};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// A(ωo) at z_o = `cos_theta_o` for a Fresnel curve of cos θ.

@@ -9,7 +9,7 @@
 //! - Choosing per lane instead would need N paths; choosing by one lane (the hero) lets the others grow without bound.
 //! - Σ wᵢ(1 − Rᵢ) is summed as such, not taken as 1 − p, which loses its digits near total reflection.
 
-use crate::spectrum::Lanes;
+use crate::math::Lanes;
 
 /// Which way all lanes go, how probable that was, and what each lane's throughput is multiplied by.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -14,7 +14,7 @@
 
 use super::{Eval, Sample, ggx};
 use crate::fresnel::Fresnel;
-use crate::spectrum::Lanes;
+use crate::math::Lanes;
 use glam::Vec3;
 
 /// Below this α the surface is a mirror.

@@ -12,8 +12,8 @@
 //! - Cost (`benches/bsdf.rs`): 22 ns for Fresnel, the shared choice and eight refracted directions together.
 //! - Under total reflection (cos θ_t = 0) there is no refracted ray: what `refract` returns then is finite and unused.
 
-use super::Directions;
-use crate::spectrum::Lanes;
+use crate::math::Lanes;
+use crate::math::Vectors;
 use glam::Vec3;
 
 /// Mirror direction of one vector.
@@ -31,10 +31,10 @@ pub fn refract(direction: Vec3, normal: Vec3, eta: f32, cos_theta_i: f32, cos_th
 /// Mirror directions, lane by lane.
 #[inline]
 pub fn reflect_lanes<const N: usize>(
-    directions: &Directions<N>,
-    normals: &Directions<N>,
+    directions: &Vectors<N>,
+    normals: &Vectors<N>,
     cos_theta_i: &Lanes<N>,
-) -> Directions<N> {
+) -> Vectors<N> {
     let mut reflected = *directions;
     for lane in 0..N {
         reflected.set(lane, reflect(directions.get(lane), normals.get(lane), cos_theta_i[lane]));
@@ -42,15 +42,15 @@ pub fn reflect_lanes<const N: usize>(
     reflected
 }
 
-/// Refracted directions, lane by lane; a shared direction or normal is `Directions::splat`.
+/// Refracted directions, lane by lane; a shared direction or normal is `Vectors::splat`.
 #[inline]
 pub fn refract_lanes<const N: usize>(
-    directions: &Directions<N>,
-    normals: &Directions<N>,
+    directions: &Vectors<N>,
+    normals: &Vectors<N>,
     eta: &Lanes<N>,
     cos_theta_i: &Lanes<N>,
     cos_theta_t: &Lanes<N>,
-) -> Directions<N> {
+) -> Vectors<N> {
     let mut refracted = *directions;
     for lane in 0..N {
         let (direction, normal) = (directions.get(lane), normals.get(lane));
@@ -114,9 +114,9 @@ mod tests {
     #[test]
     fn lanes_agree_with_single_vectors() {
         let n2 = Lanes([1.4, 1.5, 1.6, 2.4]);
-        let directions = Directions::from_fn(|lane| incoming(0.2 + 0.2 * lane as f32, lane as f64));
-        let normals = Directions::splat(Vec3::Z);
-        let cos_i = directions.dot(&Directions::splat(-Vec3::Z));
+        let directions = Vectors::from_fn(|lane| incoming(0.2 + 0.2 * lane as f32, lane as f64));
+        let normals = Vectors::splat(Vec3::Z);
+        let cos_i = directions.dot(&Vectors::splat(-Vec3::Z));
         let interface = fresnel(&Lanes::ONE, &n2, &cos_i);
         let eta = Lanes::ONE / n2;
         let refracted = refract_lanes(&directions, &normals, &eta, &cos_i, &interface.cos_theta_t);

@@ -7,9 +7,9 @@
 //! - Source: J. H. Lambert, *Photometria* (1760). The sample is a disk point lifted onto the hemisphere (N. Malley, 1988).
 //! - Valid for 0 ≤ ρ ≤ 1; conserves energy and is reciprocal exactly.
 
-use super::turn::cos_sin;
 use super::{Eval, Sample};
-use crate::spectrum::Lanes;
+use crate::math::Lanes;
+use crate::math::cos_sin;
 use glam::Vec3;
 use std::f32::consts::FRAC_1_PI;
 

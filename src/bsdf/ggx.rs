@@ -17,7 +17,7 @@
 //! - D uses the tangential components of h, never 1 − cos²: at α = 1e-3 that rounds to steps of 6 % of α².
 //!   The sampler forms 1 − b, 1 − k and 1 ± z from sums of positive terms for the same reason.
 
-use super::turn::cos_sin;
+use crate::math::cos_sin;
 use glam::Vec3;
 use std::f32::consts::FRAC_1_PI;
 
@@ -145,7 +145,7 @@ fn both_sides(a: f64, b: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fresnel::quadrature::gauss;
+    use crate::math::quadrature::gauss;
     use glam::DVec3;
     use std::f64::consts::{PI, TAU};
 

@@ -9,19 +9,14 @@ pub mod branch;
 pub mod conductor;
 pub mod dielectric;
 mod diffuse;
-mod directions;
-mod frame;
 mod ggx;
 pub mod rough_dielectric;
-mod turn;
 
 pub use branch::{Choice, choose, keep_refracted};
-pub use directions::Directions;
-pub use frame::Frame;
 pub use rough_dielectric::RoughDielectric;
 
 use crate::fresnel::Fresnel;
-use crate::spectrum::Lanes;
+use crate::math::Lanes;
 use glam::Vec3;
 
 /// How a surface scatters, for the wavelengths of one path.

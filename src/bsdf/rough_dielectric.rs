@@ -25,7 +25,7 @@
 use super::dielectric::refract;
 use super::{Eval, Sample, ggx};
 use crate::fresnel::DielectricFresnel;
-use crate::spectrum::Lanes;
+use crate::math::Lanes;
 use glam::Vec3;
 
 /// The interface as seen from one side, for the wavelengths of one path.

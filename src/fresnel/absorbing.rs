@@ -16,7 +16,7 @@
 //! - Approximations act on light from the clear side, as on metals; from the absorbing side, of which they know nothing, this is used.
 
 use super::{Dielectric, RgbFresnel, SpectralModel, dielectric};
-use crate::spectrum::Lanes;
+use crate::math::Lanes;
 
 /// Interfaces of media that absorb less do as if they were clear.
 pub const LEAST_K: f64 = 1e-3;

@@ -7,7 +7,8 @@
 //! F_avg is what diffuse light sees, and what multiple scattering between facets attenuates by each time.
 //! Integrated adaptively to 1e-12 in f64, kinks at the critical angle included.
 
-use super::{exact, quadrature};
+use super::exact;
+use crate::math::quadrature;
 
 /// F_avg of any curve of cos θ_i.
 pub fn average(mut curve: impl FnMut(f64) -> f64) -> f64 {

@@ -18,7 +18,7 @@
 //!   of epsilon-near-zero metals. Not inlining the kernel costs 4 ns.
 
 use super::{Dielectric, Model, dielectric};
-use crate::spectrum::Lanes;
+use crate::math::Lanes;
 use std::f32::consts::FRAC_1_SQRT_2;
 
 /// The indices of one hit: n1 outside, N = n2 + i k2 inside.

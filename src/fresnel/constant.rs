@@ -10,7 +10,7 @@
 //! - Cost (`benches/fresnel.rs`, SSE2, Sapphire Rapids): 1.7 ns for eight lanes at a hit, F0 included.
 
 use super::{Model, schlick};
-use crate::spectrum::Lanes;
+use crate::math::Lanes;
 
 /// One value of one hit.
 #[derive(Clone, Copy, Debug, PartialEq)]

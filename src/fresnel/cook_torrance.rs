@@ -11,7 +11,7 @@
 //! - Cost (`benches/fresnel.rs`, SSE2, Sapphire Rapids): 8 ns for eight lanes at a hit.
 
 use super::{Dielectric, Model, dielectric};
-use crate::spectrum::Lanes;
+use crate::math::Lanes;
 
 /// The squares of n2/n1 at a hit.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -13,7 +13,7 @@
 //!   input itself is ill-conditioned, to 2e-3. The second form of a² that `conductor` uses gains a factor 4 there and costs 5 ns: not taken.
 //! - Cost (`benches/fresnel.rs`, SSE2, Sapphire Rapids): 5.3 ns for one lane, 9.3 ns for eight, cos θ_t included.
 
-use crate::spectrum::Lanes;
+use crate::math::Lanes;
 
 /// What an interface does to light: reflected part, and the cosine of the refracted ray (0 under total reflection).
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -17,7 +17,7 @@
 
 use super::schlick::{self, Schlick};
 use super::{Model, conductor};
-use crate::spectrum::Lanes;
+use crate::math::Lanes;
 
 /// Where the correction is largest, and where it is fitted.
 const COS_82: f32 = super::COS_82 as f32;

@@ -15,7 +15,7 @@ use super::f82::F82;
 use super::schlick_rgb::curve;
 use super::target::COS_82;
 use super::{Rgb, Target};
-use crate::spectrum::Lanes;
+use crate::math::Lanes;
 
 /// The curve of an interface.
 #[derive(Clone, Copy, Debug, PartialEq)]

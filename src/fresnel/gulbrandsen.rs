@@ -14,7 +14,7 @@
 
 use super::schlick_rgb::single;
 use super::{Rgb, Target, conductor, exact};
-use crate::spectrum::Lanes;
+use crate::math::Lanes;
 
 /// At r = 1 the equations divide by 0.
 const LARGEST_R: f64 = 0.9999;

@@ -16,7 +16,7 @@
 use super::downhill::downhill;
 use super::schlick_rgb::{curve, single};
 use super::{Rgb, Target};
-use crate::spectrum::Lanes;
+use crate::math::Lanes;
 
 /// Where the exponent is looked for: from a dip at 0° to one beyond 88°.
 const ALPHAS: [f64; 2] = [0.0, 40.0];

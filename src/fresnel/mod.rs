@@ -6,7 +6,7 @@
 //!
 //! - `specimen`: an interface as measured; `target`: the colours that RGB models are fitted to; `rgb`: how they act on wavelengths.
 //! - `tabulated`: any model on a specimen, for tables and curves; `ready`: in the lanes of a path.
-//! - `average`, `quadrature`: sums over angles.
+//! - `average`: sums over angles.
 //!
 //! An F0 table, in linear sRGB under D65:
 //!
@@ -43,7 +43,6 @@ pub mod f82_tint;
 pub mod gulbrandsen;
 pub mod lazanyi;
 mod model;
-pub mod quadrature;
 mod ready;
 mod rgb;
 pub mod rgb_exact;
@@ -64,7 +63,7 @@ pub use specimen::Specimen;
 pub use tabulated::Tabulated;
 pub use target::{COS_82, COSINES, Target};
 
-use crate::spectrum::Lanes;
+use crate::math::Lanes;
 use model::models;
 
 /// The Fresnel model that a scene asks for, by name.

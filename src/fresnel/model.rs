@@ -4,7 +4,8 @@
 //! interface once, and `rgb` says how it acts on wavelengths.
 
 use super::{Dielectric, FresnelModel, SpectralModel, Target, dielectric};
-use crate::spectrum::{Lanes, nearest};
+use crate::math::Lanes;
+use crate::spectrum::nearest;
 
 /// Reflectance as a function of the angle alone: made once per hit from the indices, then asked for cosines.
 pub trait Model<const N: usize>: Copy {

@@ -3,7 +3,7 @@
 //! A render keeps its own (`render::models`), for its indices come from tables and its fits from many threads.
 
 use super::{DielectricFresnel, Fresnel, FresnelModel, RgbCurve, RgbFresnel, Specimen, SpectralModel, Target};
-use crate::spectrum::Lanes;
+use crate::math::Lanes;
 
 /// A model with all that does not depend on the wavelength.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -15,7 +15,7 @@
 
 use super::absorbing::Absorbing;
 use super::{Dielectric, RgbCurve, SpectralCurve, SpectralModel, dielectric};
-use crate::spectrum::Lanes;
+use crate::math::Lanes;
 
 /// The reflectance curve at a hit: one model, all lanes.
 #[derive(Clone, Copy, Debug, PartialEq)]

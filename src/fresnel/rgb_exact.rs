@@ -15,7 +15,7 @@
 
 use super::schlick_rgb::single;
 use super::{Rgb, Target, conductor};
-use crate::spectrum::Lanes;
+use crate::math::Lanes;
 
 /// Three indices, however chosen: n1 outside, n2 + i k2 inside.
 #[derive(Clone, Copy, Debug, PartialEq)]

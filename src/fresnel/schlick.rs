@@ -11,7 +11,7 @@
 //! - Cost (`benches/fresnel.rs`, SSE2, Sapphire Rapids): 3.5 ns for eight lanes, F0 and dispatch included.
 
 use super::Model;
-use crate::spectrum::Lanes;
+use crate::math::Lanes;
 
 /// Schlick's curve of one hit.
 #[derive(Clone, Copy, Debug, PartialEq)]

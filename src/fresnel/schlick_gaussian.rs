@@ -13,7 +13,7 @@
 
 use super::schlick_rgb::single;
 use super::{Rgb, Target};
-use crate::spectrum::Lanes;
+use crate::math::Lanes;
 
 /// The curve of an interface.
 #[derive(Clone, Copy, Debug, PartialEq)]

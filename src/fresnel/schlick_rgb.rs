@@ -12,7 +12,7 @@
 //! - Cost (`benches/fresnel.rs`, SSE2, Sapphire Rapids): 11 ns for eight lanes at a hit.
 
 use super::{Rgb, Target};
-use crate::spectrum::Lanes;
+use crate::math::Lanes;
 
 /// The curve of an interface.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -14,7 +14,7 @@
 
 use super::schlick::Schlick;
 use super::{Dielectric, Model, dielectric};
-use crate::spectrum::Lanes;
+use crate::math::Lanes;
 
 /// By the cosine on the side that light comes from.
 pub type SchlickIncident<const N: usize> = Side<N, true>;

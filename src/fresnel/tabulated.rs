@@ -1,7 +1,8 @@
 //! Any model on a specimen, as tables and plots ask for it: at a wavelength, and as a colour.
 
 use super::{Fitted, FresnelModel, RgbCurve, Specimen, SpectralModel, Target};
-use crate::spectrum::{Colorimeter, Lanes};
+use crate::math::Lanes;
+use crate::spectrum::Colorimeter;
 
 /// A model made ready for one specimen.
 #[derive(Clone, Copy, Debug)]

@@ -4,7 +4,7 @@
 //! that angle, also of a sun in one texel, and the density of the choice follows it exactly. Mirrors that show texels want a
 //! larger picture.
 //!
-//! Directions are chosen by what a texel's luminance has above the mean of all: O. Karlík, M. Šik, P. Vévoda, T. Skřivan &
+//! Vectors are chosen by what a texel's luminance has above the mean of all: O. Karlík, M. Šik, P. Vévoda, T. Skřivan &
 //! J. Křivánek, "MIS compensation: optimizing sampling techniques in multiple importance sampling", ACM Transactions on
 //! Graphics 38 (2019). What is not above it is found well enough by the directions that surfaces choose. Where
 //! that leaves next to nothing, in surroundings of one luminance, all of it is chosen from.

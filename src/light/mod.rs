@@ -21,7 +21,8 @@ pub use sun::Sun;
 pub use tree::Receiver;
 
 use crate::geometry::{Hit, ShapeId, Side, Target, World};
-use crate::spectrum::{Lanes, SpectrumId, Tables, Tint};
+use crate::math::Lanes;
+use crate::spectrum::{SpectrumId, Tables, Tint};
 use choice::Choice;
 use glam::Vec3;
 

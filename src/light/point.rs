@@ -5,7 +5,7 @@
 
 use glam::{DVec3, Vec3};
 
-/// Half of the narrowest cone, radians: 0.02° wide. Directions in single precision tell narrower ones from nothing.
+/// Half of the narrowest cone, radians: 0.02° wide. Vectors in single precision tell narrower ones from nothing.
 pub const NARROWEST: f64 = 1.745e-4;
 
 fn versine(angle: f64) -> f64 {

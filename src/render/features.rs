@@ -16,10 +16,11 @@ use crate::bsdf::conductor::MIRROR_ALPHA;
 use crate::bsdf::dielectric::reflect;
 use crate::fresnel::{self, FresnelModel, Specimen, Target};
 use crate::geometry::{Hit, Ray, Side};
+use crate::math::Lanes;
 use crate::scene::{MediumId, Needs, Scene, Surface};
 use crate::spectrum::{
-    Daylight, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Lanes, Matrix3, NODE_COUNT, Nodes, RgbSpace, Spectrum, SpectrumId, Tint,
-    Xyz, bradford,
+    Daylight, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Matrix3, NODE_COUNT, Nodes, RgbSpace, Spectrum, SpectrumId, Tint, Xyz,
+    bradford,
 };
 use crate::texture::Texels;
 use glam::Vec3;

@@ -6,11 +6,12 @@ use super::rough::Rough;
 use super::stone::{Entry, points};
 use super::{Tracer, rays};
 use crate::bsdf::dielectric::{reflect, refract, refract_lanes};
-use crate::bsdf::{Directions, choose, keep_refracted};
+use crate::bsdf::{choose, keep_refracted};
 use crate::geometry::{Departure, Hit, Ray, Side};
+use crate::math::Lanes;
+use crate::math::Vectors;
 use crate::sampler::Sampler;
 use crate::scene::{Filling, Inside, Interface, Object, Physics, Surface};
-use crate::spectrum::Lanes;
 
 /// Boundaries that coincide at one place, at most. More than anybody stacks; without an end two
 /// faces of one mesh in one place could be met in turn for ever.
@@ -171,8 +172,8 @@ impl<const P: u32> Tracer<'_, P> {
             return Outcome::GoesOn;
         }
         let directions = refract_lanes(
-            &Directions::splat(path.ray.direction),
-            &Directions::splat(normal),
+            &Vectors::splat(path.ray.direction),
+            &Vectors::splat(normal),
             &(n1 / n2),
             &Lanes::splat(cos_theta_i),
             &boundary.cos_theta_t,

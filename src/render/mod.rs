@@ -31,10 +31,11 @@ pub use visible::{FirstHit, first_hits};
 
 use crate::film::{Film, Pixel};
 use crate::geometry::Ray;
+use crate::math::Lanes;
 use crate::sampler::{self, PixelSamples, Sampler};
 use crate::scene::describe::SamplerName;
 use crate::scene::{MediumId, Needs, Physics, Scene};
-use crate::spectrum::{Lanes, Nodes, SpectrumId, Tables};
+use crate::spectrum::{Nodes, SpectrumId, Tables};
 use glam::Vec3;
 use media::{Buried, MediaStack};
 use models::RgbCurves;

@@ -6,8 +6,9 @@
 use super::Tracer;
 use crate::fresnel::absorbing::{Absorbing, By};
 use crate::fresnel::{DielectricFresnel, Fresnel, FresnelModel, RgbCurve, RgbFresnel, RgbModel, SpectralModel, Target};
+use crate::math::Lanes;
 use crate::scene::{MediumId, Physics, RgbColors, Scene};
-use crate::spectrum::{Lanes, SpectrumId};
+use crate::spectrum::SpectrumId;
 use std::collections::HashMap;
 use std::sync::{OnceLock, PoisonError, RwLock};
 

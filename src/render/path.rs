@@ -11,9 +11,9 @@ use super::{Tracer, rays};
 use crate::bsdf::Bsdf;
 use crate::geometry::{Hit, Ray};
 use crate::light::Receiver;
+use crate::math::Lanes;
 use crate::sampler::Sampler;
 use crate::scene::{MediumId, Physics, Surface};
-use crate::spectrum::Lanes;
 use glam::Vec3;
 
 /// Paths survive with min(1, this × their largest throughput). Relaxed roulette: 1 costs less a path, but more for the same error.

@@ -2,8 +2,9 @@
 
 use super::Tracer;
 use crate::geometry::Hit;
+use crate::math::Lanes;
 use crate::scene::{Interface, Pattern, Physics, Surface};
-use crate::spectrum::{Lanes, SpectrumId};
+use crate::spectrum::SpectrumId;
 use crate::texture::Texels;
 use glam::Vec2;
 

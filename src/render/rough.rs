@@ -7,12 +7,13 @@ use super::Tracer;
 use super::media::MediaStack;
 use super::path::{Outcome, Path};
 use super::scatter::weight;
-use crate::bsdf::{Frame, RoughDielectric};
+use crate::bsdf::RoughDielectric;
 use crate::geometry::{Hit, Ray, Side};
 use crate::light::Receiver;
+use crate::math::Frame;
+use crate::math::Lanes;
 use crate::sampler::Sampler;
 use crate::scene::{Interface, MediumId, Physics};
-use crate::spectrum::Lanes;
 use glam::Vec3;
 
 /// A rough boundary as a path meets it.

@@ -2,12 +2,13 @@
 
 use super::path::{Outcome, Path};
 use super::{Tracer, rays};
-use crate::bsdf::{Bsdf, Frame};
+use crate::bsdf::Bsdf;
 use crate::geometry::{Hit, Ray, Side};
 use crate::light::{LightSample, Receiver};
+use crate::math::Frame;
+use crate::math::Lanes;
 use crate::sampler::Sampler;
 use crate::scene::{MediumId, Physics};
-use crate::spectrum::Lanes;
 use glam::Vec3;
 
 /// Balance heuristic's weight of a sample with density `taken` that `other` could have found too (Veach & Guibas 1995, eq. 10).

@@ -8,16 +8,17 @@
 use super::Tracer;
 use super::path::Path;
 use crate::bsdf::dielectric::{reflect_lanes, refract_lanes};
-use crate::bsdf::{Directions, choose, keep_refracted};
+use crate::bsdf::{choose, keep_refracted};
 use crate::geometry::{Hit, Points, Shape};
+use crate::math::Lanes;
+use crate::math::Vectors;
 use crate::sampler::Sampler;
 use crate::scene::{Interface, MediumId, Physics};
-use crate::spectrum::Lanes;
 
 /// Where lanes enter a stone, already refracted.
 pub struct Entry<'a, const N: usize> {
     pub hit: &'a Hit,
-    pub directions: Directions<N>,
+    pub directions: Vectors<N>,
     pub interface: &'a Interface,
     /// What the stone stands in.
     pub outside: MediumId,
@@ -26,7 +27,7 @@ pub struct Entry<'a, const N: usize> {
 /// Where lanes leave a stone, and whereto.
 pub struct Exits<const N: usize> {
     pub origins: Points<N>,
-    pub directions: Directions<N>,
+    pub directions: Vectors<N>,
 }
 
 impl<const P: u32> Tracer<'_, P> {
@@ -48,7 +49,7 @@ impl<const P: u32> Tracer<'_, P> {
             let exits = solid.exit_lanes(&origins, &points(&directions));
             advance(&mut origins, &directions, &exits.t);
             self.absorb_each(path, medium, &exits.t);
-            let normals = Directions::from_fn(|lane| -solid.normal(exits.facet[lane]));
+            let normals = Vectors::from_fn(|lane| -solid.normal(exits.facet[lane]));
             let cos_theta_i = directions.dot(&normals).map(|cos| (-cos).clamp(0.0, 1.0));
             let boundary = fresnel.at(&inside, &outside, &cos_theta_i);
             let choice = choose(&path.throughput, &boundary.r, sampler.uniform());
@@ -83,7 +84,7 @@ impl<const P: u32> Tracer<'_, P> {
 }
 
 #[inline]
-fn advance<const N: usize>(origins: &mut Points<N>, directions: &Directions<N>, t: &[f32; N]) {
+fn advance<const N: usize>(origins: &mut Points<N>, directions: &Vectors<N>, t: &[f32; N]) {
     for (lane, t) in t.iter().enumerate() {
         origins.x[lane] += directions.x[lane] * t;
         origins.y[lane] += directions.y[lane] * t;
@@ -93,6 +94,6 @@ fn advance<const N: usize>(origins: &mut Points<N>, directions: &Directions<N>, 
 
 /// The room of shapes knows no directions, only triples of lanes.
 #[inline]
-pub fn points<const N: usize>(directions: &Directions<N>) -> Points<N> {
+pub fn points<const N: usize>(directions: &Vectors<N>) -> Points<N> {
     Points { x: directions.x, y: directions.y, z: directions.z }
 }

@@ -17,9 +17,9 @@
 
 use super::Kernel;
 use super::path::Path;
+use crate::math::Lanes;
 use crate::sampler::Sampler;
 use crate::scene::Physics;
-use crate::spectrum::Lanes;
 use std::ops::Deref;
 
 /// A kernel that runs the physics `P` and nothing else.

@@ -4,7 +4,7 @@
 //! by on one machine, and for a report, not for a test; `benches/fresnel.rs` measures with more care.
 
 use crate::fresnel::Ready;
-use crate::spectrum::{LANES, Lanes};
+use crate::math::{LANES, Lanes};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 

@@ -1,6 +1,7 @@
 //! The spectra of a scene, each once, and their values at the nodes that a render uses.
 
-use super::{LUMENS_PER_WATT, Lanes, NODE_COUNT, Nodes, Sigmoid, Spectrum, Xyz};
+use super::{LUMENS_PER_WATT, NODE_COUNT, Nodes, Sigmoid, Spectrum, Xyz};
+use crate::math::Lanes;
 
 /// One spectrum of an [`Arena`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -5,8 +5,7 @@
 //!   `rii_page`, `table_file`, `agf_file`, `cgats_file`, `spdx_file` read the formats; `about` is the provenance that comes along. Text of columns passes
 //!   through `words`, `rows`, `wave_unit` and `columns`; `absorbing` knows what states an absorption, `noise` what is passed over.
 //! - `integrate`: exact integrals of products of spectra; `observer`: the CIE observers.
-//! - `density`: how densely wavelengths are chosen; `nodes`: those that the renderer uses, and how they sample an integral;
-//!   `lanes`: those of one path.
+//! - `density`: how densely wavelengths are chosen; `nodes`: those that the renderer uses, and how they sample an integral.
 //! - `arena`: the spectra of a scene and their tables; `bins`: intervals of wavelength for spectral pictures.
 //! - `colorimeter`: from a reflectance to RGB, as tables are made.
 //! - `color`, `spaces`, `delta_e`, `upsample`: from XYZ to RGB, to a colour difference, and from RGB to a reflectance;
@@ -32,7 +31,6 @@ mod error;
 mod format;
 mod formula;
 mod integrate;
-mod lanes;
 mod library;
 mod nodes;
 mod noise;
@@ -65,7 +63,6 @@ pub use emission::{Daylight, Line, planck};
 pub use error::{SpectrumError, nearest};
 pub use formula::{Formula, FormulaType};
 pub use integrate::{integrate, luminance, radiance_xyz, tristimulus, tristimulus_1nm, white_xyz, white_xyz_1nm};
-pub use lanes::{LANES, Lanes};
 pub use library::{Library, MaterialText};
 pub use nodes::{NODE_COUNT, Nodes};
 pub use observer::{ColorMatching, Observer};

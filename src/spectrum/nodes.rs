@@ -10,7 +10,8 @@
 //! Emission lines are lines 0.1 nm wide, about what lamps have, where the density has boxes for them.
 
 use super::density::LineWidth;
-use super::{ColorMatching, Density, LAMBDA_MAX_NM, LAMBDA_MIN_NM, LANES, Line, Spectrum, Xyz};
+use super::{ColorMatching, Density, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Line, Spectrum, Xyz};
+use crate::math::LANES;
 
 /// How many nodes there are: M.
 pub const NODE_COUNT: usize = 2048;

@@ -7,7 +7,7 @@
 //! In single precision the sum loses the digits of dark colours, so what is small is computed without a difference:
 //! with r = √(1 + x²) the smaller of the sigmoid and its complement is 1/(2 r (r + |x|)). One square root and one division.
 
-use super::Lanes;
+use crate::math::Lanes;
 
 /// Four numbers a texel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

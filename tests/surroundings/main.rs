@@ -48,7 +48,7 @@ impl Picture {
         format!("environment.image = {{ file = {path:?}, illuminant = \"E\"{more} }}\n")
     }
 
-    /// Directions spread evenly over the angles of a texel, each with its part of the solid angle, sr.
+    /// Vectors spread evenly over the angles of a texel, each with its part of the solid angle, sr.
     pub fn directions(&self, [row, column]: [usize; 2]) -> impl Iterator<Item = ([f64; 3], f64)> {
         const GRID: usize = 64;
         let (dv, du) = (PI / self.height() as f64, 2.0 * PI / self.width as f64);

@@ -3,11 +3,12 @@
 use super::super::effort::{self, Sharing};
 use super::BenchArgs;
 use crate::fresnel::{FresnelModel, RgbModel, SpectralModel};
+use crate::math::LANES;
 use crate::report::bench::{self, Change};
 use crate::report::plan::Aim;
 use crate::scene::describe::SamplerName;
 use crate::scene::{Overrides, Scene, SceneError, Text, resolve};
-use crate::spectrum::{LANES, Library};
+use crate::spectrum::Library;
 
 pub const DEFAULT_MODELS: &[FresnelModel] = &[
     FresnelModel::Spectral(SpectralModel::Schlick),

@@ -3,10 +3,10 @@
 //! By the very kernels that render, in the eight lanes of a path; the scene's outside medium is on the other side.
 
 use crate::fresnel::{Fitted, FresnelModel, Ready, Specimen, Target};
+use crate::math::{LANES, Lanes};
 use crate::report::comparison::{Curves, Line};
 use crate::report::timing::{self, BRIEF};
 use crate::scene::{MediumId, Scene, Surface};
-use crate::spectrum::{LANES, Lanes};
 use std::collections::BTreeSet;
 
 /// Where a curve is sampled: 400 to 700 nm, a path's lanes at a time.

@@ -2,10 +2,10 @@
 
 use crate::cli::{show, tables};
 use crate::fresnel::{conductor, dielectric, exact};
+use crate::math::Lanes;
 use crate::report::Grid;
 use crate::report::table::{Table, TableError, number};
 use crate::scene::SceneError;
-use crate::spectrum::Lanes;
 use clap::{Args, ValueEnum};
 use csv::StringRecord;
 use std::path::PathBuf;

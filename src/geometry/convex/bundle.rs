@@ -14,7 +14,7 @@ use super::Convex;
 use super::exit::{BLOCK, Block, CHECK_EVERY, FIRST_CHECK, Points, TOUCHING};
 use glam::Vec3;
 
-/// Directions farther apart than this are met by all planes: too many would be left over.
+/// Vectors farther apart than this are met by all planes: too many would be left over.
 const APART: f32 = 0.25;
 
 /// One of several rays, and how far the others may be from it.

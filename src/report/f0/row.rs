@@ -9,7 +9,8 @@
 //!   (`tests/f0_tables.rs`): 4e-10 in linear sRGB for every data set of the library but air, 4e-8 there, whose F rises within 1° of grazing.
 
 use super::{Color, Engines, Instrument};
-use crate::fresnel::{COS_82, exact, quadrature};
+use crate::fresnel::{COS_82, exact};
+use crate::math::quadrature;
 use crate::spectrum::{About, Confidence, HELIUM_D_NM, Ior, citation};
 use serde::Serialize;
 use std::sync::Arc;

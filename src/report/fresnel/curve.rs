@@ -5,7 +5,8 @@
 
 use super::Subject;
 use crate::fresnel::{FresnelModel, SpectralModel, Tabulated, Target};
-use crate::spectrum::{Colorimeter, Lanes};
+use crate::math::Lanes;
+use crate::spectrum::Colorimeter;
 use serde::{Serialize, Serializer};
 use std::fmt;
 

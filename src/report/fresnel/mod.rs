@@ -11,7 +11,8 @@ pub mod text;
 
 use crate::fresnel::absorbing::LEAST_K;
 use crate::fresnel::{Fitted, FresnelModel, Ready, Specimen, Target};
-use crate::spectrum::{Colorimeter, Ior, LANES, Lanes, Spectrum, visible_nm};
+use crate::math::{LANES, Lanes};
+use crate::spectrum::{Colorimeter, Ior, Spectrum, visible_nm};
 
 /// An interface that is asked about.
 #[derive(Clone, Debug)]

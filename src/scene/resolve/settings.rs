@@ -52,7 +52,7 @@ impl Resolver<'_> {
             sampler: overrides.sampler.unwrap_or(render.sampler),
             filter: render.filter,
             fresnel: overrides.fresnel.or(render.fresnel),
-            lanes: overrides.lanes.unwrap_or(crate::spectrum::LANES as u32),
+            lanes: overrides.lanes.unwrap_or(crate::math::LANES as u32),
             ior: overrides.ior.clone(),
             vary: overrides.vary.clone(),
         })
