@@ -2,7 +2,7 @@
 
 use divan::{Bencher, black_box};
 use glam::Vec3;
-use spectrel::bsdf::{Bsdf, RoughDielectric, albedo, choose, dielectric};
+use spectrel::bsdf::{Bsdf, Conductor, Diffuse, Draw, RoughDielectric, Scatters, albedo, choose, dielectric};
 use spectrel::fresnel::{SpectralModel, dielectric::fresnel};
 use spectrel::math::Lanes;
 use spectrel::math::{Frame, Vectors};
@@ -18,13 +18,16 @@ fn points() -> Vec<[f32; 2]> {
 fn metal(model: SpectralModel, alpha: f32) -> Bsdf<8> {
     let n2 = Lanes([1.46, 1.43, 1.16, 0.54, 0.28, 0.21, 0.16, 0.15]);
     let k2 = Lanes([1.95, 1.85, 1.82, 2.17, 2.72, 3.12, 3.61, 4.21]);
-    Bsdf::Conductor { fresnel: black_box(model).at(&Lanes::ONE, &n2, &k2).into(), alpha }
+    Bsdf::Conductor(Conductor { fresnel: black_box(model).at(&Lanes::ONE, &n2, &k2).into(), alpha })
 }
 
 fn sampling(bencher: Bencher, bsdf: Bsdf<8>) {
     let (bsdf, points, wo) = (black_box(bsdf), points(), black_box(Vec3::new(0.6, 0.0, 0.8)));
     bencher.bench_local(|| {
-        points.iter().filter_map(|&u| bsdf.sample(wo, u)).fold(Lanes::ZERO, |sum, s| sum + s.weight * (s.wi.x + s.pdf))
+        points
+            .iter()
+            .filter_map(|&u| bsdf.sample(wo, Draw { uv: u, lobe: 0.0 }))
+            .fold(Lanes::ZERO, |sum, s| sum + s.weight * (s.wi.x + s.pdf))
     });
 }
 
@@ -40,7 +43,7 @@ fn sample_mirror(bencher: Bencher, model: &SpectralModel) {
 
 #[divan::bench]
 fn sample_diffuse(bencher: Bencher) {
-    sampling(bencher, Bsdf::Diffuse { reflectance: Lanes::splat(0.5) });
+    sampling(bencher, Bsdf::Diffuse(Diffuse { reflectance: Lanes::splat(0.5) }));
 }
 
 #[divan::bench(args = SpectralModel::ALL)]
@@ -64,7 +67,7 @@ fn rough_glass(model: SpectralModel) -> RoughDielectric<8> {
 fn sample_rough_glass(bencher: Bencher, model: &SpectralModel) {
     let (bsdf, points, wo) = (black_box(rough_glass(*model)), points(), black_box(Vec3::new(0.6, 0.0, 0.8)));
     bencher.bench_local(|| {
-        let samples = points.iter().filter_map(|&u| bsdf.sample(wo, u, (7.0 * u[0]).fract()));
+        let samples = points.iter().filter_map(|&u| bsdf.sample(wo, Draw { uv: u, lobe: (7.0 * u[0]).fract() }));
         samples.fold(Lanes::ZERO, |sum, s| sum + s.weight * (s.wi.x + s.pdf))
     });
 }

@@ -7,7 +7,7 @@
 mod statistics;
 
 use glam::{DVec3, Vec3};
-use spectrel::bsdf::Bsdf;
+use spectrel::bsdf::{Bsdf, Conductor, Diffuse, Draw, Scatters};
 use spectrel::fresnel::SpectralModel;
 use spectrel::math::Lanes;
 use spectrel::math::quadrature::gauss;
@@ -29,7 +29,10 @@ fn direction(degrees: f64, azimuth: f64) -> Vec3 {
 }
 
 fn metal(alpha: f32) -> Bsdf<1> {
-    Bsdf::Conductor { fresnel: SpectralModel::Exact.at(&Lanes([1.0]), &Lanes([0.2]), &Lanes([3.0])).into(), alpha }
+    Bsdf::Conductor(Conductor {
+        fresnel: SpectralModel::Exact.at(&Lanes([1.0]), &Lanes([0.2]), &Lanes([3.0])).into(),
+        alpha,
+    })
 }
 
 /// Half-vector cells of a highlight of width `alpha`.
@@ -98,7 +101,7 @@ fn histogram(sampled: &Bsdf<1>, wo: Vec3, cells: &Cells, seed: u64) -> Vec<f64> 
     let mut random = Random::new(seed);
     let mut counts = vec![0.0; RINGS * SECTORS + 1];
     for _ in 0..SAMPLES {
-        match sampled.sample(wo, random.point()) {
+        match sampled.sample(wo, Draw { uv: random.point(), lobe: 0.0 }) {
             Some(sample) => counts[cells.bin(sample.wi)] += 1.0,
             None => counts[RINGS * SECTORS] += 1.0,
         }
@@ -133,7 +136,7 @@ fn metals_follow_their_density_and_no_other() {
 
 #[test]
 fn diffuse_follows_its_density_and_no_other() {
-    let diffuse = Bsdf::Diffuse { reflectance: Lanes([0.5]) };
+    let diffuse = Bsdf::Diffuse(Diffuse { reflectance: Lanes([0.5]) });
     for angle in ANGLES {
         let wo = direction(angle, 0.7);
         let right = compare(&diffuse, &diffuse, wo, 1.0);

@@ -4,7 +4,7 @@ mod statistics;
 
 use glam::{DVec3, Vec3};
 use proptest::prelude::*;
-use spectrel::bsdf::{Bsdf, albedo::albedo, conductor::MIRROR_ALPHA};
+use spectrel::bsdf::{Bsdf, Conductor, Diffuse, Draw, Lobe, Scatters, albedo::albedo, conductor::MIRROR_ALPHA};
 use spectrel::fresnel::{Fresnel, SpectralModel, exact};
 use spectrel::math::Lanes;
 use statistics::Random;
@@ -40,7 +40,7 @@ fn sampled(bsdf: &Bsdf<2>, wo: Vec3) -> [f64; 2] {
     for point in 0..SIDE * SIDE {
         let jitter = random.point();
         let u = [((point % SIDE) as f32 + jitter[0]) / SIDE as f32, ((point / SIDE) as f32 + jitter[1]) / SIDE as f32];
-        if let Some(sample) = bsdf.sample(wo, u.map(|u| u.min(0.999_999_94))) {
+        if let Some(sample) = bsdf.sample(wo, Draw { uv: u.map(|u| u.min(0.999_999_94)), lobe: 0.0 }) {
             (0..2).for_each(|lane| sum[lane] += sample.weight[lane] as f64);
         }
     }
@@ -53,7 +53,7 @@ fn white_facets_never_gain_energy() {
     assert_eq!(fresnel.reflectance(0.3), Lanes::ONE);
     for alpha in ALPHAS {
         for angle in ANGLES {
-            let albedo = sampled(&Bsdf::Conductor { fresnel, alpha }, direction(angle, 0.4));
+            let albedo = sampled(&Bsdf::Conductor(Conductor { fresnel, alpha }), direction(angle, 0.4));
             assert!(albedo[0] <= 1.0 && albedo[0] > 0.3, "α {alpha} at {angle}°: {albedo:?}");
         }
     }
@@ -64,7 +64,7 @@ fn sampled_albedo_is_the_integral_over_half_vectors() {
     for alpha in ALPHAS {
         for angle in ANGLES {
             let wo = direction(angle, 0.4);
-            let found = sampled(&Bsdf::Conductor { fresnel: gold(), alpha }, wo);
+            let found = sampled(&Bsdf::Conductor(Conductor { fresnel: gold(), alpha }), wo);
             for (found, (n, k)) in found.into_iter().zip(GOLD) {
                 let expected = albedo(alpha as f64, wo.z as f64, |cos| exact::reflect(1.0, n, k, cos).r);
                 let error = found / expected - 1.0;
@@ -79,17 +79,19 @@ fn sampled_albedo_is_the_integral_over_half_vectors() {
 fn albedo_and_highlight_reach_the_mirror_without_a_jump() {
     for angle in ANGLES {
         let wo = direction(angle, 0.4);
-        let mirror = Bsdf::Conductor { fresnel: gold(), alpha: 0.0 }.sample(wo, [0.5, 0.5]).unwrap();
-        assert!(mirror.delta);
+        let mirror = Bsdf::Conductor(Conductor { fresnel: gold(), alpha: 0.0 })
+            .sample(wo, Draw { uv: [0.5, 0.5], lobe: 0.0 })
+            .unwrap();
+        assert_eq!(mirror.lobe, Lobe::Mirror);
         let mut last = f64::INFINITY;
         for alpha in [1e-2, 1e-3, MIRROR_ALPHA] {
-            let bsdf = Bsdf::Conductor { fresnel: gold(), alpha };
+            let bsdf = Bsdf::Conductor(Conductor { fresnel: gold(), alpha });
             let albedo = sampled(&bsdf, wo);
             let jump = (0..2).map(|lane| (albedo[lane] - mirror.weight[lane] as f64).abs()).fold(0.0, f64::max);
-            let median = bsdf.sample(wo, [0.0, 0.5]).unwrap();
+            let median = bsdf.sample(wo, Draw { uv: [0.0, 0.5], lobe: 0.0 }).unwrap();
             let spread = (median.wi - mirror.wi).length() / alpha;
             println!("{angle}°, α {alpha}: albedo differs by {jump:.1e}, median direction by {spread:.2} α");
-            assert!(!median.delta && spread < 5.0);
+            assert!(median.lobe == Lobe::Reflection && spread < 5.0);
             assert!(jump < last.max(1e-5) * 1.01);
             last = jump;
         }
@@ -99,7 +101,7 @@ fn albedo_and_highlight_reach_the_mirror_without_a_jump() {
 
 #[test]
 fn delta_lobes_evaluate_to_nothing() {
-    let mirror = Bsdf::Conductor { fresnel: gold(), alpha: 0.99 * MIRROR_ALPHA };
+    let mirror = Bsdf::Conductor(Conductor { fresnel: gold(), alpha: 0.99 * MIRROR_ALPHA });
     let (wo, wi) = (direction(30.0, 0.0), direction(30.0, std::f64::consts::PI));
     assert!(mirror.is_delta() && mirror.eval(wo, wi).f_cos == Lanes::ZERO && mirror.eval(wo, wi).pdf == 0.0);
 }
@@ -113,13 +115,13 @@ proptest! {
 
     #[test]
     fn nothing_breaks_anywhere(wo in upper(), wi in upper(), flip in any::<bool>(), alpha in roughness(), u in [unit(), unit()]) {
-        let surfaces = [Bsdf::Conductor { fresnel: gold(), alpha }, Bsdf::Diffuse { reflectance: Lanes::splat(0.7) }];
+        let surfaces = [Bsdf::Conductor(Conductor { fresnel: gold(), alpha }), Bsdf::Diffuse(Diffuse { reflectance: Lanes::splat(0.7) })];
         for bsdf in surfaces {
             let eval = bsdf.eval(wo, if flip { -wi } else { wi });
             prop_assert!(eval.pdf.is_finite() && eval.pdf >= 0.0);
             prop_assert!(eval.f_cos.0.iter().all(|f| f.is_finite() && *f >= 0.0));
             prop_assert!(!flip || (eval.pdf == 0.0 && eval.f_cos == Lanes::ZERO));
-            if let Some(sample) = bsdf.sample(wo, u) {
+            if let Some(sample) = bsdf.sample(wo, Draw { uv: u, lobe: 0.0 }) {
                 prop_assert!((sample.wi.length() - 1.0).abs() < 1e-6 && sample.wi.z > 0.0, "{:?}", sample);
                 prop_assert!(sample.pdf.is_finite() && sample.pdf > 0.0);
                 prop_assert!(sample.weight.0.iter().all(|w| (0.0..1.000_001).contains(w)), "{:?}", sample);
@@ -129,7 +131,7 @@ proptest! {
 
     #[test]
     fn light_paths_can_be_reversed(wo in above(1e-3), wi in above(1e-3), alpha in 0.01f32..1.0) {
-        for bsdf in [Bsdf::Conductor { fresnel: gold(), alpha }, Bsdf::Diffuse { reflectance: Lanes::splat(0.7) }] {
+        for bsdf in [Bsdf::Conductor(Conductor { fresnel: gold(), alpha }), Bsdf::Diffuse(Diffuse { reflectance: Lanes::splat(0.7) })] {
             let (there, back) = (bsdf.eval(wo, wi).f_cos / wi.z, bsdf.eval(wi, wo).f_cos / wo.z);
             for lane in 0..2 {
                 prop_assert!((there[lane] - back[lane]).abs() <= 1e-5 * there[lane], "{} {}", there[lane], back[lane]);
@@ -139,8 +141,8 @@ proptest! {
 
     #[test]
     fn weight_is_value_over_density(wo in above(0.01), alpha in 0.05f32..1.0, u in [unit(), unit()]) {
-        for bsdf in [Bsdf::Conductor { fresnel: gold(), alpha }, Bsdf::Diffuse { reflectance: Lanes::splat(0.7) }] {
-            let Some(sample) = bsdf.sample(wo, u) else { continue };
+        for bsdf in [Bsdf::Conductor(Conductor { fresnel: gold(), alpha }), Bsdf::Diffuse(Diffuse { reflectance: Lanes::splat(0.7) })] {
+            let Some(sample) = bsdf.sample(wo, Draw { uv: u, lobe: 0.0 }) else { continue };
             let eval = bsdf.eval(wo, sample.wi);
             prop_assert!((eval.pdf - sample.pdf).abs() <= 1e-3 * sample.pdf, "{} {}", eval.pdf, sample.pdf);
             for lane in 0..2 {

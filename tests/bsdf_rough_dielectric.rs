@@ -4,7 +4,7 @@ mod statistics;
 
 use glam::{DVec3, Vec3};
 use proptest::prelude::*;
-use spectrel::bsdf::{RoughDielectric, albedo, conductor::MIRROR_ALPHA};
+use spectrel::bsdf::{Draw, RoughDielectric, Scatters, albedo, conductor::MIRROR_ALPHA};
 use spectrel::fresnel::{SpectralModel, exact};
 use spectrel::math::Lanes;
 use statistics::directions::{above, unit, upper};
@@ -125,7 +125,7 @@ fn compare<const N: usize>(sampled: &RoughDielectric<N>, other: &RoughDielectric
     let (mut random, mut counts) = (Random::new(7), vec![0.0; BINS + 1]);
     let wo = cells.wo.as_vec3();
     for _ in 0..SAMPLES {
-        let sample = sampled.sample(wo, random.point(), random.unit());
+        let sample = sampled.sample(wo, Draw { uv: random.point(), lobe: random.unit() });
         counts[sample.map_or(BINS, |sample| cells.bin(sample.wi))] += 1.0;
     }
     chi_squared(&counts, &cells.integrate(|wo, wi| other.eval(wo, wi).pdf), SAMPLES as f64)
@@ -167,7 +167,7 @@ fn sampled<const N: usize>(surface: &RoughDielectric<N>, wo: Vec3) -> [Lanes<N>;
     for i in 0..COUNT {
         let at = |step: f64| ((i as f64 * step + 0.5).fract() as f32).min(0.999_999_94);
         let u = [at(0.819_172_513_396_164_4), at(0.671_043_606_703_789_2)];
-        if let Some(sample) = surface.sample(wo, u, at(0.549_700_477_901_970_4)) {
+        if let Some(sample) = surface.sample(wo, Draw { uv: u, lobe: at(0.549_700_477_901_970_4) }) {
             let sum = &mut sums[usize::from(sample.wi.z < 0.0)];
             (0..N).for_each(|lane| sum[lane] += f64::from(sample.weight[lane]));
         }
@@ -223,7 +223,9 @@ fn equal_indices_let_everything_pass_straight_on() {
             let surface = glass(alpha, [1.5; 2], [1.5, 1.5 + 2e-6]);
             let (mut random, mut sum) = (Random::new(5), Lanes::ZERO);
             for _ in 0..20_000 {
-                let Some(sample) = surface.sample(wo, random.point(), random.unit()) else { continue };
+                let Some(sample) = surface.sample(wo, Draw { uv: random.point(), lobe: random.unit() }) else {
+                    continue;
+                };
                 assert!((sample.wi + wo).length() < 1e-2, "{:?}", sample.wi);
                 sum += sample.weight;
             }
@@ -260,7 +262,7 @@ proptest! {
         let eval = surface.eval(wo, if below { -wi } else { wi });
         prop_assert!(eval.pdf.is_finite() && eval.pdf >= 0.0, "{eval:?}");
         prop_assert!(eval.f_cos.0.iter().all(|f| f.is_finite() && *f >= 0.0), "{eval:?}");
-        if let Some(sample) = surface.sample(wo, [u[0], u[1]], u[2]) {
+        if let Some(sample) = surface.sample(wo, Draw { uv: [u[0], u[1]], lobe: u[2] }) {
             prop_assert!((sample.wi.length() - 1.0).abs() < 1e-6 && sample.wi.z != 0.0, "{sample:?}");
             prop_assert!(sample.pdf.is_finite() && sample.pdf > 0.0, "{sample:?}");
             prop_assert!(sample.weight.0.iter().all(|w| (0.0..2.000_01).contains(w)), "{sample:?}");
@@ -287,7 +289,7 @@ proptest! {
     #[test]
     fn weight_is_value_over_density(wo in above(0.01), alpha in 0.05f32..1.0, u in [unit(), unit(), unit()], turned in any::<bool>()) {
         let surface = four(SIDES[usize::from(turned)], alpha);
-        if let Some(sample) = surface.sample(wo, [u[0], u[1]], u[2]) {
+        if let Some(sample) = surface.sample(wo, Draw { uv: [u[0], u[1]], lobe: u[2] }) {
             let eval = surface.eval(wo, sample.wi);
             prop_assert!((eval.pdf - sample.pdf).abs() <= 1e-5 * sample.pdf, "{} {}", eval.pdf, sample.pdf);
             for lane in 0..4 {

@@ -4,8 +4,7 @@ use glam::{DVec3, Vec3};
 use spectrel::bsdf::dielectric::refract_lanes;
 use spectrel::fresnel::SpectralModel;
 use spectrel::geometry::{Convex, Departure, Plane, Points, Ray, Shape, ShapeId, Side, World};
-use spectrel::math::Lanes;
-use spectrel::math::Vectors;
+use spectrel::math::{Lanes, Vectors};
 use spectrel::spectrum::Library;
 use std::path::Path;
 

@@ -19,7 +19,10 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("camera", &["spectrum", "geometry", "math"]),
     ("scene", &["math", "spectrum", "fresnel", "bsdf", "geometry", "texture", "light", "camera"]),
     ("film", &["spectrum"]),
-    ("render", &["math", "spectrum", "fresnel", "bsdf", "geometry", "sampler", "texture", "light", "camera", "scene", "film"]),
+    (
+        "render",
+        &["math", "spectrum", "fresnel", "bsdf", "geometry", "sampler", "texture", "light", "camera", "scene", "film"],
+    ),
     ("image", &["film", "spectrum"]),
     ("report", &["image", "film", "spectrum", "fresnel", "math"]),
     ("cli", &["*"]),

@@ -5,8 +5,8 @@ use std::path::Path;
 use spectrel::math::Lanes;
 use spectrel::spectrum::{
     Arena, Chromaticities, ColorMatching, Daylight, Density, Library, Line, NODE_COUNT, Nodes, Observer, Outside,
-    RgbSpace, Sigmoid, Spectrum, Table, Tint, UpsampleTable, Upsampler, bradford, ciede2000, lab_from_xyz, luminance,
-    tristimulus, tristimulus_1nm, white_xyz, white_xyz_1nm,
+    RgbSpace, Sigmoid, Spectrum, Table, Tint, UpsampleTable, Upsampler, Wavelengths, bradford, ciede2000, lab_from_xyz,
+    luminance, tristimulus, tristimulus_1nm, white_xyz, white_xyz_1nm,
 };
 
 fn library() -> Library {
@@ -271,7 +271,10 @@ fn sets_estimate_the_luminance_in_candela() {
     let id = arena.add(lamp.clone());
     let mut tables = arena.tabulate(&nodes, 8);
     let [_, y, _] = tables.push_observer(&nodes.observer_weights(&observer));
-    let set = |set: u32| f64::from((tables.get::<8>(id, 8 * set) * tables.get::<8>(y, 8 * set)).sum());
+    let set = |set: u32| {
+        let wavelengths = Wavelengths::<8>::new(&tables, set);
+        f64::from((wavelengths.at(id) * wavelengths.at(y)).sum())
+    };
     let estimate = (0..tables.sets()).map(set).sum::<f64>() / f64::from(tables.sets());
     assert!((estimate / luminance(&lamp, &observer) - 1.0).abs() < 1e-5);
 }

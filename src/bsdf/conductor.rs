@@ -12,9 +12,8 @@
 //!   (`tests/bsdf_chi_squared.rs`). D of directions rounded to f32, α = 1e-3: to 1e-4 at 60°, 2.5e-3 at 89°, 3e-2 at 89.9°, without bias.
 //! - Cost (`benches/bsdf.rs`, eight lanes): sample 24 ns with Schlick, 40–50 ns exact; eval 8 and 23–27 ns; mirror 4 and 18–20 ns.
 
-use super::{Eval, Sample, ggx};
+use super::{Draw, Eval, Lobe, Sample, Scatters, ggx};
 use crate::fresnel::Fresnel;
-use crate::math::Lanes;
 use glam::Vec3;
 
 /// Below this α the surface is a mirror.
@@ -24,37 +23,53 @@ use glam::Vec3;
 /// directions still resolve the lobe (steps of 6e-8). So nothing jumps at the switch; below it, resolution would be lost for nothing.
 pub const MIRROR_ALPHA: f32 = 1e-4;
 
-#[inline]
-pub(super) fn sample<const N: usize>(fresnel: &Fresnel<N>, alpha: f32, wo: Vec3, u: [f32; 2]) -> Option<Sample<N>> {
-    if alpha < MIRROR_ALPHA {
-        return Some(mirror(fresnel, wo));
-    }
-    let visible = ggx::Visible::new(wo, alpha);
-    let normal = visible.sample_normal(u);
-    let length_squared = normal.length_squared();
-    let projected = wo.dot(normal);
-    let wi = normal * (2.0 * projected / length_squared) - wo;
-    if !(wi.z > 0.0 && projected > 0.0) {
-        return None;
-    }
-    let reflectance = fresnel.reflectance((projected / length_squared.sqrt()).min(1.0));
-    let pdf = visible.pdf(ggx::density(normal, alpha));
-    Some(Sample { wi, weight: reflectance * visible.weight(wi), pdf, delta: false })
+/// A metal whose facets reflect by a Fresnel curve, of roughness α in 0…1; 0 is a mirror.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Conductor<const N: usize> {
+    pub fresnel: Fresnel<N>,
+    pub alpha: f32,
 }
 
-fn mirror<const N: usize>(fresnel: &Fresnel<N>, wo: Vec3) -> Sample<N> {
-    let wi = Vec3::new(-wo.x, -wo.y, wo.z);
-    Sample { wi, weight: fresnel.reflectance(wo.z.min(1.0)), pdf: 1.0, delta: true }
+impl<const N: usize> Conductor<N> {
+    fn mirror(&self, wo: Vec3) -> Sample<N> {
+        let wi = Vec3::new(-wo.x, -wo.y, wo.z);
+        Sample { wi, weight: self.fresnel.reflectance(wo.z.min(1.0)), pdf: 1.0, lobe: Lobe::Mirror }
+    }
 }
 
-#[inline]
-pub(super) fn eval<const N: usize>(fresnel: &Fresnel<N>, alpha: f32, wo: Vec3, wi: Vec3) -> Eval<N> {
-    if alpha < MIRROR_ALPHA {
-        return Eval { f_cos: Lanes::ZERO, pdf: 0.0 };
+impl<const N: usize> Scatters<N> for Conductor<N> {
+    #[inline]
+    fn sample(&self, wo: Vec3, Draw { uv, .. }: Draw) -> Option<Sample<N>> {
+        if self.is_delta() {
+            return Some(self.mirror(wo));
+        }
+        let visible = ggx::Visible::new(wo, self.alpha);
+        let normal = visible.sample_normal(uv);
+        let length_squared = normal.length_squared();
+        let projected = wo.dot(normal);
+        let wi = normal * (2.0 * projected / length_squared) - wo;
+        if !(wi.z > 0.0 && projected > 0.0) {
+            return None;
+        }
+        let reflectance = self.fresnel.reflectance((projected / length_squared.sqrt()).min(1.0));
+        let pdf = visible.pdf(ggx::density(normal, self.alpha));
+        Some(Sample { wi, weight: reflectance * visible.weight(wi), pdf, lobe: Lobe::Reflection })
     }
-    let visible = ggx::Visible::new(wo, alpha);
-    let half = wo + wi;
-    let density = ggx::density(half, alpha);
-    let reflectance = fresnel.reflectance((0.5 * half.length()).min(1.0));
-    Eval { f_cos: reflectance * visible.reflected(wi, density), pdf: visible.pdf(density) }
+
+    #[inline]
+    fn eval(&self, wo: Vec3, wi: Vec3) -> Eval<N> {
+        if self.is_delta() {
+            return Eval::NONE;
+        }
+        let visible = ggx::Visible::new(wo, self.alpha);
+        let half = wo + wi;
+        let density = ggx::density(half, self.alpha);
+        let reflectance = self.fresnel.reflectance((0.5 * half.length()).min(1.0));
+        Eval { f_cos: reflectance * visible.reflected(wi, density), pdf: visible.pdf(density) }
+    }
+
+    #[inline]
+    fn is_delta(&self) -> bool {
+        self.alpha < MIRROR_ALPHA
+    }
 }

@@ -12,8 +12,7 @@
 //! - Cost (`benches/bsdf.rs`): 22 ns for Fresnel, the shared choice and eight refracted directions together.
 //! - Under total reflection (cos θ_t = 0) there is no refracted ray: what `refract` returns then is finite and unused.
 
-use crate::math::Lanes;
-use crate::math::Vectors;
+use crate::math::{Lanes, Vectors};
 use glam::Vec3;
 
 /// Mirror direction of one vector.

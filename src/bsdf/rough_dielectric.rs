@@ -23,7 +23,7 @@
 //! - Valid for α from `conductor::MIRROR_ALPHA` to 1 (below it the smooth interface takes over) and for any n; see `part` for equal indices.
 
 use super::dielectric::refract;
-use super::{Eval, Sample, ggx};
+use super::{Draw, Eval, Lobe, Sample, Scatters, Sides, ggx};
 use crate::fresnel::DielectricFresnel;
 use crate::math::Lanes;
 use glam::Vec3;
@@ -42,51 +42,6 @@ impl<const N: usize> RoughDielectric<N> {
     #[inline]
     pub fn new(fresnel: DielectricFresnel<N>, n1: &Lanes<N>, n2: &Lanes<N>, alpha: f32) -> Self {
         Self { n1: *n1, n2: n1.zip(*n2, |n1, n2| part(n1, n2, alpha)), alpha, fresnel }
-    }
-
-    /// A direction on either side, given ωo with z > 0: its facet by `u`, its lane and whether that reflects by `choice`, all in
-    /// [0, 1). None where the facet met would send light to the wrong side of the surface: that sample weighs zero.
-    #[inline]
-    pub fn sample(&self, wo: Vec3, u: [f32; 2], choice: f32) -> Option<Sample<N>> {
-        if wo.z <= 0.0 {
-            return None;
-        }
-        let visible = ggx::Visible::all(wo, self.alpha);
-        let normal = visible.sample_normal(u).normalize();
-        let projected = wo.dot(normal);
-        let (lane, choice) = lane_of::<N>(choice);
-        let (n1, n2) = (self.n1[lane], self.n2[lane]);
-        let facet = self.fresnel.lane(lane).at(&Lanes([n1]), &Lanes([n2]), &Lanes([projected.clamp(0.0, 1.0)]));
-        let reflects = choice < facet.r[0];
-        // What an absorbing medium keeps of total reflection.
-        if !reflects && facet.cos_theta_t[0] == 0.0 {
-            return None;
-        }
-        let wi = match reflects {
-            true => normal * (2.0 * projected) - wo,
-            false => refract(-wo, normal, n1 / n2, projected, facet.cos_theta_t[0]).normalize(),
-        };
-        if !(projected > 0.0 && if reflects { wi.z > 0.0 } else { wi.z < 0.0 }) {
-            return None;
-        }
-        let densities = self.densities(&visible, wi);
-        let pdf = densities.mean();
-        (pdf > 0.0).then(|| Sample { wi, weight: densities * (self.kept(&visible, wi) / pdf), pdf, delta: false })
-    }
-
-    /// What is scattered from ωi, on either side, to ωo.
-    #[inline]
-    pub fn eval(&self, wo: Vec3, wi: Vec3) -> Eval<N> {
-        if wo.z <= 0.0 || wi.z == 0.0 {
-            return Eval { f_cos: Lanes::ZERO, pdf: 0.0 };
-        }
-        let visible = ggx::Visible::all(wo, self.alpha);
-        let densities = self.densities(&visible, wi);
-        let pdf = densities.mean();
-        if pdf == 0.0 {
-            return Eval { f_cos: Lanes::ZERO, pdf };
-        }
-        Eval { f_cos: densities * self.kept(&visible, wi), pdf }
     }
 
     /// Density of ωi for each lane if its own were always chosen.
@@ -123,6 +78,54 @@ impl<const N: usize> RoughDielectric<N> {
     #[inline]
     fn kept(&self, visible: &ggx::Visible, wi: Vec3) -> f32 {
         if wi.z > 0.0 { visible.weight(wi) } else { visible.weight_below(wi) }
+    }
+}
+
+impl<const N: usize> Scatters<N> for RoughDielectric<N> {
+    /// Chooses the facet by `uv`, and by `lobe` the lane and whether that one reflects.
+    #[inline]
+    fn sample(&self, wo: Vec3, Draw { lobe, uv }: Draw) -> Option<Sample<N>> {
+        let visible = ggx::Visible::all(wo, self.alpha);
+        let normal = visible.sample_normal(uv).normalize();
+        let projected = wo.dot(normal);
+        let (lane, choice) = lane_of::<N>(lobe);
+        let (n1, n2) = (self.n1[lane], self.n2[lane]);
+        let facet = self.fresnel.lane(lane).at(&Lanes([n1]), &Lanes([n2]), &Lanes([projected.clamp(0.0, 1.0)]));
+        let reflects = choice < facet.r[0];
+        // What an absorbing medium keeps of total reflection.
+        if !reflects && facet.cos_theta_t[0] == 0.0 {
+            return None;
+        }
+        let wi = match reflects {
+            true => normal * (2.0 * projected) - wo,
+            false => refract(-wo, normal, n1 / n2, projected, facet.cos_theta_t[0]).normalize(),
+        };
+        if !(projected > 0.0 && if reflects { wi.z > 0.0 } else { wi.z < 0.0 }) {
+            return None;
+        }
+        let densities = self.densities(&visible, wi);
+        let pdf = densities.mean();
+        let lobe = if reflects { Lobe::Reflection } else { Lobe::Transmission };
+        (pdf > 0.0).then(|| Sample { wi, weight: densities * (self.kept(&visible, wi) / pdf), pdf, lobe })
+    }
+
+    #[inline]
+    fn eval(&self, wo: Vec3, wi: Vec3) -> Eval<N> {
+        let visible = ggx::Visible::all(wo, self.alpha);
+        let densities = self.densities(&visible, wi);
+        let pdf = densities.mean();
+        if pdf == 0.0 {
+            return Eval::NONE;
+        }
+        Eval { f_cos: densities * self.kept(&visible, wi), pdf }
+    }
+
+    fn sides(&self) -> Sides {
+        Sides::Both
+    }
+
+    fn has_lobes(&self) -> bool {
+        true
     }
 }
 

@@ -22,7 +22,7 @@ pub use tree::Receiver;
 
 use crate::geometry::{Hit, ShapeId, Side, Target, World};
 use crate::math::Lanes;
-use crate::spectrum::{SpectrumId, Tables, Tint};
+use crate::spectrum::{SpectrumId, Tint, Wavelengths};
 use choice::Choice;
 use glam::Vec3;
 
@@ -59,11 +59,11 @@ pub struct Radiance {
 
 impl Radiance {
     #[inline]
-    pub fn at<const N: usize>(&self, tables: &Tables, offset: u32) -> Lanes<N> {
-        let spectrum = tables.get(self.spectrum, offset);
+    pub fn at<const N: usize>(&self, wavelengths: Wavelengths<N>) -> Lanes<N> {
+        let spectrum = wavelengths.at(self.spectrum);
         match self.tint {
             None => spectrum,
-            Some(tint) => spectrum * tint.at(tables.positions(offset)),
+            Some(tint) => spectrum * tint.at(wavelengths.positions()),
         }
     }
 }
@@ -216,19 +216,19 @@ impl Lights {
 
     /// What the surroundings send from a direction, and the density with which [`Self::sample`] gives it, per steradian.
     #[inline]
-    pub fn environment<const N: usize>(&self, tables: &Tables, direction: Vec3, offset: u32) -> (Lanes<N>, f32) {
+    pub fn environment<const N: usize>(&self, direction: Vec3, wavelengths: Wavelengths<N>) -> (Lanes<N>, f32) {
         let radiance = match &self.environment {
             Environment::Dark => Lanes::ZERO,
-            Environment::Constant(radiance) => tables.get(*radiance, offset),
+            Environment::Constant(radiance) => wavelengths.at(*radiance),
             Environment::Gradient { nadir, horizon, zenith } => {
                 let pole = if direction.z > 0.0 { zenith } else { nadir };
                 let share = direction.z.abs().min(1.0);
-                tables.get::<N>(*horizon, offset) * (1.0 - share) + tables.get::<N>(*pole, offset) * share
+                wavelengths.at(*horizon) * (1.0 - share) + wavelengths.at(*pole) * share
             }
             Environment::Map(map) => {
                 let Look { tint, pdf } = map.look(direction);
                 let radiance = Radiance { spectrum: map.light(), tint: Some(tint) };
-                return (radiance.at(tables, offset), pdf * self.map);
+                return (radiance.at(wavelengths), pdf * self.map);
             }
         };
         (radiance, 0.0)

@@ -1,17 +1,16 @@
 //! A path at a dielectric boundary: reflected or refracted, and parted where a smooth one disperses.
 
 use super::media::MediaStack;
-use super::path::{Outcome, Path};
-use super::rough::Rough;
+use super::path::Path;
 use super::stone::{Entry, points};
+use super::vertex::{Beyond, Vertex};
 use super::{Tracer, rays};
 use crate::bsdf::dielectric::{reflect, refract, refract_lanes};
 use crate::bsdf::{choose, keep_refracted};
 use crate::geometry::{Departure, Hit, Ray, Side};
-use crate::math::Lanes;
-use crate::math::Vectors;
-use crate::sampler::Sampler;
+use crate::math::{Lanes, Vectors};
 use crate::scene::{Filling, Inside, Interface, Object, Physics, Surface};
+use std::ops::ControlFlow;
 
 /// Boundaries that coincide at one place, at most. More than anybody stacks; without an end two
 /// faces of one mesh in one place could be met in turn for ever.
@@ -80,24 +79,23 @@ impl<const P: u32> Tracer<'_, P> {
         Some(self.scene.cover(&path.ray, also, &hit).unwrap_or(hit))
     }
 
-    /// A dielectric boundary: one of reflection and refraction is followed, all lanes alike.
+    /// Sends a path on from a dielectric boundary: one of reflection and refraction is followed, all lanes alike.
     #[inline]
     pub fn interface<const N: usize>(
         &self,
         interface: &Interface,
+        vertex: &Vertex<N>,
         path: &mut Path<N>,
-        (hit, also): (&Hit, &[Departure]),
-        sampler: &mut Sampler,
-        radiance: &mut Lanes<N>,
-    ) -> Outcome {
+    ) -> ControlFlow<()> {
+        let hit = vertex.hit;
         let rank = self.scene.object(hit.shape).rank;
         let solid = Filling { rank, medium: interface.medium };
         let media = path.media.across(solid, hit.side == Side::Outside, &self.buried);
         if Self::runs(Physics::CONTACT) && self.scene.object(hit.shape).touches {
             let boundary = Boundary { interface: *interface, rank, media, far: *hit };
-            return self.cross_together(boundary, path, (hit, also), sampler, radiance);
+            return self.cross_together(boundary, vertex, path);
         }
-        self.cross(interface, media, hit, path, hit, sampler, radiance)
+        self.cross(interface, vertex, &Beyond { media, far: hit }, path)
     }
 
     /// Kept apart: boundaries that may coincide are worked out in memory, which took 4 % of the instructions of a sample of glass that
@@ -106,70 +104,57 @@ impl<const P: u32> Tracer<'_, P> {
     fn cross_together<const N: usize>(
         &self,
         boundary: Boundary,
+        vertex: &Vertex<N>,
         path: &mut Path<N>,
-        (hit, also): (&Hit, &[Departure]),
-        sampler: &mut Sampler,
-        radiance: &mut Lanes<N>,
-    ) -> Outcome {
-        let Boundary { interface, media, far, .. } = self.contact(boundary, &path.ray, also);
-        self.cross(&interface, media, &far, path, hit, sampler, radiance)
+    ) -> ControlFlow<()> {
+        let Boundary { interface, media, far, .. } = self.contact(boundary, &path.ray, vertex.also);
+        self.cross(&interface, vertex, &Beyond { media, far: &far }, path)
     }
 
-    /// Across or back: `far` is the last of the boundaries that coincide at `hit`, and beyond it are `media`.
+    /// Across or back.
     #[inline(always)]
-    #[allow(clippy::too_many_arguments, reason = "a boundary by reference costs nothing where it is one hit")]
     fn cross<const N: usize>(
         &self,
         interface: &Interface,
-        media: MediaStack,
-        far: &Hit,
+        vertex: &Vertex<N>,
+        beyond: &Beyond,
         path: &mut Path<N>,
-        hit: &Hit,
-        sampler: &mut Sampler,
-        radiance: &mut Lanes<N>,
-    ) -> Outcome {
-        let object = self.scene.object(hit.shape);
-        let entering = hit.side == Side::Outside;
-        let (from, to) = (path.media.current(), media.current());
+    ) -> ControlFlow<()> {
+        let &Vertex { hit, wavelengths, medium: from, .. } = vertex;
+        let to = beyond.media.current();
         if from == to {
-            path.media = media;
-            // No shadow ray comes through here: a light that this ray meets counts in full.
-            path.pdf = f32::INFINITY;
-            let from_here = Ray::leaving(far, far.side.opposite(), path.ray.direction);
-            // Never back: two solids that share a hair of room would each find the ray before the other's surface, for ever.
-            let origin = if far.t > 0.0 { far.point } else { path.ray.origin };
-            path.ray = Ray { origin, ..from_here };
-            return Outcome::GoesOn;
+            path.pass(beyond);
+            return ControlFlow::Continue(());
         }
         if Self::runs(Physics::ROUGH_GLASS) && interface.is_rough() {
-            let rough = Rough { interface: *interface, from, to, beyond: media, far: *far };
-            return self.rough_interface(&rough, path, hit, sampler, radiance);
+            return self.scatter_clear(interface, vertex, beyond, path);
         }
-        let (n1, n2) = (self.n(from, path.offset), self.n(to, path.offset));
-        let normal = hit.facing(-path.ray.direction);
-        let cos_theta_i = (-path.ray.direction.dot(normal)).clamp(0.0, 1.0);
-        let fresnel = self.boundary(interface.model, from, to, path.offset);
+        let (n1, n2) = (self.n(from, wavelengths), self.n(to, wavelengths));
+        let normal = vertex.frame.z;
+        let cos_theta_i = vertex.wo.z.clamp(0.0, 1.0);
+        let fresnel = self.boundary(interface.model, from, to, wavelengths);
         let boundary = fresnel.at(&n1, &n2, &Lanes::splat(cos_theta_i));
-        let choice = choose(&path.throughput, &boundary.r, sampler.uniform());
+        let choice = choose(&path.throughput, &boundary.r, path.sampler.uniform());
         path.throughput *= choice.weight;
         path.pdf = f32::INFINITY;
         if choice.reflect {
             path.ray = Ray::leaving(hit, hit.side, reflect(path.ray.direction, normal, cos_theta_i));
-            return Outcome::GoesOn;
+            return ControlFlow::Continue(());
         }
         if Self::runs(Physics::COMPLEX_INDEX) && !keep_refracted(&mut path.throughput, &boundary.cos_theta_t) {
-            return Outcome::Ended;
+            return ControlFlow::Break(());
         }
-        let outside = path.media.current();
-        path.media = media;
+        path.media = beyond.media;
         let parts = N > 1
             && Self::runs(Physics::DISPERSION)
             && (self.scene.medium(from).dispersive || self.scene.medium(to).dispersive);
-        let into_stone = entering && (parts || N == 1) && object.inside == Inside::Alone;
+        let inside = self.scene.object(hit.shape).inside;
+        let into_stone = hit.side == Side::Outside && (parts || N == 1) && inside == Inside::Alone;
+        let (far, side) = (beyond.far, beyond.far.side.opposite());
         if !parts && !into_stone {
             let direction = refract(path.ray.direction, normal, n1[0] / n2[0], cos_theta_i, boundary.cos_theta_t[0]);
-            path.ray = Ray::leaving(far, far.side.opposite(), direction);
-            return Outcome::GoesOn;
+            path.ray = Ray::leaving(far, side, direction);
+            return ControlFlow::Continue(());
         }
         let directions = refract_lanes(
             &Vectors::splat(path.ray.direction),
@@ -179,42 +164,28 @@ impl<const P: u32> Tracer<'_, P> {
             &boundary.cos_theta_t,
         );
         if into_stone {
-            let entry = Entry { hit, directions, interface, outside };
-            return self.through_stone(&entry, path, sampler, radiance);
+            return self.through_stone(&Entry { hit, directions, interface, outside: from }, path);
         }
         for lane in 0..N {
-            let ray = Ray::leaving(far, far.side.opposite(), directions.get(lane));
-            self.go_on_alone(path, lane, ray, *sampler, radiance);
+            self.go_on_alone(path, lane, Ray::leaving(far, side, directions.get(lane)));
         }
-        Outcome::Ended
+        ControlFlow::Break(())
     }
 
     /// Follows one lane to the end of its path; a lane that carries nothing costs nothing.
-    pub fn go_on_alone<const N: usize>(
-        &self,
-        path: &Path<N>,
-        lane: usize,
-        ray: Ray,
-        mut sampler: Sampler,
-        radiance: &mut Lanes<N>,
-    ) {
+    pub fn go_on_alone<const N: usize>(&self, path: &mut Path<N>, lane: usize, ray: Ray) {
         let mut alone = path.lane(lane, ray);
-        if alone.throughput[0] > 0.0 && alone.survives(&mut sampler) {
-            radiance[lane] += self.radiance(&mut alone, &mut sampler)[0];
+        if alone.throughput[0] > 0.0 && alone.survives() {
+            self.follow(&mut alone);
+            path.radiance[lane] += alone.radiance[0];
         }
     }
 
-    fn through_stone<const N: usize>(
-        &self,
-        entry: &Entry<N>,
-        path: &mut Path<N>,
-        sampler: &mut Sampler,
-        radiance: &mut Lanes<N>,
-    ) -> Outcome {
+    fn through_stone<const N: usize>(&self, entry: &Entry<N>, path: &mut Path<N>) -> ControlFlow<()> {
         let entered = path.depth;
-        let exits = self.trace_stone(entry, path, sampler);
+        let exits = self.trace_stone(entry, path);
         rays::count(N as u64 * u64::from(path.depth - entered));
-        let Some(exits) = exits else { return Outcome::Ended };
+        let Some(exits) = exits else { return ControlFlow::Break(()) };
         let rank = self.scene.object(entry.hit.shape).rank;
         path.media = path.media.across(Filling { rank, medium: entry.interface.medium }, false, &self.buried);
         // The entry's facet: of a convex solid left outwards nobody asks which.
@@ -222,19 +193,33 @@ impl<const P: u32> Tracer<'_, P> {
         let ray = |lane| Ray { origin: exits.origins.get(lane), direction: exits.directions.get(lane), departs };
         if N == 1 {
             path.ray = ray(0);
-            return Outcome::GoesOn;
+            return ControlFlow::Continue(());
         }
         let escapes = self.scene.world.escape(&exits.origins, &points(&exits.directions), entry.hit.shape);
         for (lane, escapes) in escapes.into_iter().enumerate() {
             if escapes && path.throughput[lane] > 0.0 {
                 rays::count(1);
-                let offset = path.offset + lane as u32;
-                let arriving = self.environment::<1>(exits.directions.get(lane), path.pdf, offset);
-                radiance[lane] += path.throughput[lane] * arriving[0];
+                let arriving = self.environment(exits.directions.get(lane), path.pdf, path.wavelengths.lane(lane));
+                path.radiance[lane] += path.throughput[lane] * arriving[0];
             } else {
-                self.go_on_alone(path, lane, ray(lane), *sampler, radiance);
+                self.go_on_alone(path, lane, ray(lane));
             }
         }
-        Outcome::Ended
+        ControlFlow::Break(())
+    }
+}
+
+impl<const N: usize> Path<'_, N> {
+    /// Goes straight on through a boundary of equal media.
+    #[inline]
+    fn pass(&mut self, beyond: &Beyond) {
+        self.media = beyond.media;
+        // No shadow ray comes through here: a light that this ray meets counts in full.
+        self.pdf = f32::INFINITY;
+        let far = beyond.far;
+        let from_here = Ray::leaving(far, far.side.opposite(), self.ray.direction);
+        // Never back: two solids that share a hair of room would each find the ray before the other's surface, for ever.
+        let origin = if far.t > 0.0 { far.point } else { self.ray.origin };
+        self.ray = Ray { origin, ..from_here };
     }
 }

@@ -89,7 +89,7 @@ impl<'a> Recorder<'a> {
         }
         if let Some(shares) = &self.shares {
             for lane in 0..N {
-                for &(band, weight) in shares.at(traced.offset + lane as u32) {
+                for &(band, weight) in shares.at(traced.wavelengths.lane(lane)) {
                     row.add_band(at, band as usize, traced.radiance[lane] * weight);
                 }
             }

@@ -10,18 +10,20 @@
 //! 6 % more.)
 
 mod cover;
+mod direct;
 mod features;
 mod interface;
 mod layers;
 mod media;
+mod mis;
 mod models;
 mod path;
 mod pattern;
 pub mod rays;
-mod rough;
 mod scatter;
 mod stone;
 mod tracer;
+mod vertex;
 mod visible;
 
 pub use features::{Guides, Seen};
@@ -35,7 +37,7 @@ use crate::math::Lanes;
 use crate::sampler::{self, PixelSamples, Sampler};
 use crate::scene::describe::SamplerName;
 use crate::scene::{MediumId, Needs, Physics, Scene};
-use crate::spectrum::{Nodes, SpectrumId, Tables};
+use crate::spectrum::{Nodes, SpectrumId, Tables, Wavelengths};
 use glam::Vec3;
 use media::{Buried, MediaStack};
 use models::RgbCurves;
@@ -80,10 +82,10 @@ pub struct Kernel<'a> {
     rgb: Option<RgbCurves<'a>>,
 }
 
-/// A camera ray and the spectral radiance that arrives along it, at the wavelengths of a place in the tables.
-struct Traced<const N: usize> {
+/// A camera ray and the spectral radiance that arrives along it, at some wavelengths.
+struct Traced<'a, const N: usize> {
     ray: Ray,
-    offset: u32,
+    wavelengths: Wavelengths<'a, N>,
     radiance: Lanes<N>,
 }
 
@@ -130,21 +132,22 @@ impl<'a> Kernel<'a> {
 
     /// One sample of one pixel.
     #[inline]
-    fn trace<const N: usize>(&self, pixel: [u32; 2], mut sampler: Sampler) -> Traced<N> {
+    fn trace<const N: usize>(&self, pixel: [u32; 2], mut sampler: Sampler) -> Traced<'_, N> {
         let [dx, dy] = self.scene.filter.sample(sampler.uniform_2d());
-        let offset = sampler.set(self.tables.sets()) * N as u32;
+        let wavelengths = Wavelengths::new(&self.tables, sampler.set(self.tables.sets()));
         let [x, y] = [pixel[0] as f32 + 0.5 + dx, pixel[1] as f32 + 0.5 + dy];
         let ray = self.scene.camera.ray(x, y, || sampler.uniform_2d());
-        let mut path = Path::<N>::new(ray, offset, self.around_camera);
+        let mut path = Path::new(ray, wavelengths, self.around_camera, sampler);
         if !self.scene.around_camera.some.is_empty() {
             path.media = self.around(ray.origin);
         }
         let seen_from = path.media.current();
-        let mut radiance = self.radiance(&mut path, &mut sampler);
+        self.follow(&mut path);
+        let mut radiance = path.radiance;
         if seen_from != MediumId::OUTSIDE {
-            radiance *= self.concentration(seen_from, MediumId::OUTSIDE, offset);
+            radiance *= self.concentration(seen_from, MediumId::OUTSIDE, wavelengths);
         }
-        Traced { ray, offset, radiance }
+        Traced { ray, wavelengths, radiance }
     }
 
     /// What a camera ray begins in, where that is not the same for all of them.
@@ -158,8 +161,8 @@ impl<'a> Kernel<'a> {
     /// How much more radiance there is in a medium than where it comes from: radiance over n² is what
     /// refraction keeps (Nicodemus 1963).
     #[inline]
-    fn concentration<const N: usize>(&self, medium: MediumId, from: MediumId, offset: u32) -> Lanes<N> {
-        let n = |medium| self.tables.get::<N>(self.scene.medium(medium).n, offset);
+    fn concentration<const N: usize>(&self, medium: MediumId, from: MediumId, wavelengths: Wavelengths<N>) -> Lanes<N> {
+        let n = |medium| wavelengths.at(self.scene.medium(medium).n);
         let ratio = n(medium) / n(from);
         ratio * ratio
     }
@@ -168,7 +171,7 @@ impl<'a> Kernel<'a> {
     #[inline]
     fn xyz<const N: usize>(&self, traced: &Traced<N>) -> [f32; 3] {
         let [x, y, z] = self.observer;
-        let weighted = |weights| (traced.radiance * self.tables.get(weights, traced.offset)).sum();
+        let weighted = |weights| (traced.radiance * traced.wavelengths.at(weights)).sum();
         [weighted(x), weighted(y), weighted(z)]
     }
 

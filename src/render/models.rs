@@ -4,11 +4,12 @@
 //! milliseconds, and most pairs of media never touch.
 
 use super::Tracer;
+use super::vertex::Vertex;
 use crate::fresnel::absorbing::{Absorbing, By};
 use crate::fresnel::{DielectricFresnel, Fresnel, FresnelModel, RgbCurve, RgbFresnel, RgbModel, SpectralModel, Target};
 use crate::math::Lanes;
 use crate::scene::{MediumId, Physics, RgbColors, Scene};
-use crate::spectrum::SpectrumId;
+use crate::spectrum::{SpectrumId, Wavelengths};
 use std::collections::HashMap;
 use std::sync::{OnceLock, PoisonError, RwLock};
 
@@ -46,26 +47,21 @@ impl<'a> RgbCurves<'a> {
 }
 
 impl<const P: u32> Tracer<'_, P> {
-    /// The reflectance of a metal of these indices, `surface` of the scene, seen from a medium.
+    /// Returns the reflectance of the metal of these indices that a path has met.
     #[inline]
-    pub fn metal<const N: usize>(
-        &self,
-        model: FresnelModel,
-        surface: u32,
-        index: [SpectrumId; 2],
-        medium: MediumId,
-        offset: u32,
-    ) -> Fresnel<N> {
+    pub fn metal<const N: usize>(&self, model: FresnelModel, index: [SpectrumId; 2], vertex: &Vertex<N>) -> Fresnel<N> {
+        let &Vertex { medium, wavelengths, .. } = vertex;
         let spectral = match (model, &self.rgb) {
             _ if !Self::runs(Physics::APPROXIMATIONS) => SpectralModel::Exact,
             (FresnelModel::Rgb(model), Some(curves)) => {
-                return Fresnel::Rgb(self.on_lanes(curves.metal(model, surface, index, medium), curves, offset));
+                let surface = self.scene.object(vertex.hit.shape).surface;
+                return Fresnel::Rgb(on_lanes(curves.metal(model, surface, index, medium), curves, wavelengths));
             }
             (FresnelModel::Spectral(model), _) => model,
             (FresnelModel::Rgb(_), None) => NEVER,
         };
-        let [n, k] = index.map(|id| self.tables.get(id, offset));
-        Fresnel::Spectral(spectral.at(&self.n(medium, offset), &n, &k))
+        let [n, k] = index.map(|id| wavelengths.at(id));
+        Fresnel::Spectral(spectral.at(&self.n(medium, wavelengths), &n, &k))
     }
 
     /// The model at the boundary of two clear media.
@@ -75,17 +71,17 @@ impl<const P: u32> Tracer<'_, P> {
         model: FresnelModel,
         from: MediumId,
         to: MediumId,
-        offset: u32,
+        wavelengths: Wavelengths<N>,
     ) -> DielectricFresnel<N> {
         if Self::runs(Physics::COMPLEX_INDEX)
-            && let Some(absorbing) = self.absorbing(model, from, to, offset)
+            && let Some(absorbing) = self.absorbing(model, from, to, wavelengths)
         {
             return DielectricFresnel::Absorbing(absorbing);
         }
         match (model, &self.rgb) {
             _ if !Self::runs(Physics::APPROXIMATIONS) => DielectricFresnel::Spectral(SpectralModel::Exact),
             (FresnelModel::Rgb(model), Some(curves)) => {
-                DielectricFresnel::Rgb(self.on_lanes(curves.boundary(model, from, to), curves, offset))
+                DielectricFresnel::Rgb(on_lanes(curves.boundary(model, from, to), curves, wavelengths))
             }
             (FresnelModel::Spectral(model), _) => DielectricFresnel::Spectral(model),
             (FresnelModel::Rgb(_), None) => DielectricFresnel::Spectral(NEVER),
@@ -99,15 +95,15 @@ impl<const P: u32> Tracer<'_, P> {
         model: FresnelModel,
         from: MediumId,
         to: MediumId,
-        offset: u32,
+        wavelengths: Wavelengths<N>,
     ) -> Option<Absorbing<N>> {
         let ids = [from, to].map(|medium| self.scene.medium(medium).k);
-        let [k1, k2] = ids.map(|k| k.map_or(Lanes::ZERO, |k| self.tables.get(k, offset)));
+        let [k1, k2] = ids.map(|k| k.map_or(Lanes::ZERO, |k| wavelengths.at(k)));
         let by = match (ids, model, &self.rgb) {
             ([None, None], ..) => return None,
             ([Some(_), _], ..) => By::Exact,
             ([None, _], FresnelModel::Rgb(model), Some(curves)) => {
-                By::Rgb(self.on_lanes(curves.boundary(model, from, to), curves, offset))
+                By::Rgb(on_lanes(curves.boundary(model, from, to), curves, wavelengths))
             }
             ([None, _], FresnelModel::Spectral(model), _) if !model.dielectrics_only() => By::Spectral(model),
             _ => By::Exact,
@@ -115,11 +111,11 @@ impl<const P: u32> Tracer<'_, P> {
         let by = if by == By::Spectral(SpectralModel::Exact) { By::Exact } else { by };
         Some(Absorbing { k1, k2, by })
     }
+}
 
-    #[inline(never)]
-    fn on_lanes<const N: usize>(&self, curve: RgbCurve, curves: &RgbCurves, offset: u32) -> RgbFresnel<N> {
-        RgbFresnel { curve, primaries: curves.colors.primaries.map(|id| self.tables.get(id, offset)) }
-    }
+#[inline(never)]
+fn on_lanes<const N: usize>(curve: RgbCurve, curves: &RgbCurves, wavelengths: Wavelengths<N>) -> RgbFresnel<N> {
+    RgbFresnel { curve, primaries: curves.colors.primaries.map(|id| wavelengths.at(id)) }
 }
 
 /// For RGB models in a scene without their colours, which `resolve` never makes.

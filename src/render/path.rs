@@ -6,15 +6,18 @@
 //! which measures better than going on with one of them, and is simpler.
 
 use super::media::MediaStack;
-use super::scatter::balance_heuristic;
+use super::mis::balance_heuristic;
+use super::vertex::Vertex;
 use super::{Tracer, rays};
-use crate::bsdf::Bsdf;
+use crate::bsdf::{Conductor, Diffuse};
 use crate::geometry::{Hit, Ray};
 use crate::light::Receiver;
 use crate::math::Lanes;
 use crate::sampler::Sampler;
 use crate::scene::{MediumId, Physics, Surface};
+use crate::spectrum::Wavelengths;
 use glam::Vec3;
+use std::ops::ControlFlow;
 
 /// Paths survive with min(1, this × their largest throughput). Relaxed roulette: 1 costs less a path, but more for the same error.
 ///
@@ -31,12 +34,14 @@ const LATE: u32 = 256;
 const KEPT: f32 = 1.0 - 1.0 / 4096.0;
 
 /// A path on its way.
-#[derive(Clone, Copy, Debug)]
-pub struct Path<const N: usize> {
+#[derive(Clone, Copy)]
+pub struct Path<'a, const N: usize> {
     pub ray: Ray,
     pub throughput: Lanes<N>,
-    /// Where its wavelengths stand in the tables.
-    pub offset: u32,
+    /// Spectral radiance that it has gathered so far, W m⁻² sr⁻¹ nm⁻¹.
+    pub radiance: Lanes<N>,
+    pub wavelengths: Wavelengths<'a, N>,
+    pub sampler: Sampler<'a>,
     pub media: MediaStack,
     /// Density per steradian with which the last surface chose the direction; infinite for a direction without choice, so
     /// that a light it meets counts in full.
@@ -49,12 +54,14 @@ pub struct Path<const N: usize> {
     before: f32,
 }
 
-impl<const N: usize> Path<N> {
-    pub fn new(ray: Ray, offset: u32, media: MediaStack) -> Self {
+impl<'a, const N: usize> Path<'a, N> {
+    pub fn new(ray: Ray, wavelengths: Wavelengths<'a, N>, media: MediaStack, sampler: Sampler<'a>) -> Self {
         Self {
             ray,
             throughput: Lanes::ONE,
-            offset,
+            radiance: Lanes::ZERO,
+            wavelengths,
+            sampler,
             media,
             pdf: f32::INFINITY,
             normal: None,
@@ -63,12 +70,14 @@ impl<const N: usize> Path<N> {
         }
     }
 
-    /// One lane, to go on alone.
-    pub fn lane(&self, lane: usize, ray: Ray) -> Path<1> {
+    /// Returns one lane, to go on alone: it draws the same numbers as the others.
+    pub fn lane(&self, lane: usize, ray: Ray) -> Path<'a, 1> {
         Path {
             ray,
             throughput: Lanes([self.throughput[lane]]),
-            offset: self.offset + lane as u32,
+            radiance: Lanes::ZERO,
+            wavelengths: self.wavelengths.lane(lane),
+            sampler: self.sampler,
             media: self.media,
             pdf: self.pdf,
             normal: self.normal,
@@ -79,14 +88,14 @@ impl<const N: usize> Path<N> {
 
     /// Ends the path by chance, in the mean keeping what it carries. False when it has ended.
     #[inline(always)]
-    pub fn survives(&mut self, sampler: &mut Sampler) -> bool {
+    pub fn survives(&mut self) -> bool {
         let carried = self.throughput.max();
         let survival = if self.depth < LATE { ROULETTE * carried } else { self.late_survival(carried) };
         if survival >= 1.0 {
             return true;
         }
         // A throughput of zero, or one that is not a number, ends the path.
-        let survives = sampler.uniform() < survival;
+        let survives = self.sampler.uniform() < survival;
         if survives {
             self.throughput *= 1.0 / survival;
         }
@@ -116,70 +125,68 @@ impl<const N: usize> Path<N> {
     }
 }
 
-/// What a surface did to a path.
-pub enum Outcome {
-    GoesOn,
-    Ended,
-}
-
 impl<const P: u32> Tracer<'_, P> {
-    /// Spectral radiance (W m⁻² sr⁻¹ nm⁻¹) that arrives along a path's ray, a lane each. The path goes where it ends: a
-    /// copy of it took 2 % of the instructions of a sample of a diffuse mesh.
-    pub fn radiance<const N: usize>(&self, path: &mut Path<N>, sampler: &mut Sampler) -> Lanes<N> {
-        let (mut radiance, mut traced) = (Lanes::ZERO, 0);
+    /// Follows a path to its end; it gathers the spectral radiance that arrives along its ray.
+    pub fn follow<const N: usize>(&self, path: &mut Path<N>) {
+        let mut traced = 0;
         loop {
             traced += 1;
             let mut also = Vec::new();
             let Some(hit) = self.next(path, &mut also) else {
-                radiance += path.throughput * self.environment(path.ray.direction, path.pdf, path.offset);
+                path.radiance += path.throughput * self.environment(path.ray.direction, path.pdf, path.wavelengths);
                 break;
             };
-            path.throughput *= self.transmittance(self.medium(path), hit.t, path.offset);
-            radiance += self.emission(path, &hit);
+            path.throughput *= self.transmittance(self.medium(path), hit.t, path.wavelengths);
+            path.radiance += self.emission(path, &hit);
             // The last interaction is followed by a ray that only looks for light, the other half of its estimate.
             if path.depth >= self.max_depth {
                 break;
             }
             path.depth += 1;
-            let outcome = match self.surface(&hit) {
-                Surface::Black => Outcome::Ended,
-                Surface::Diffuse { reflectance } => {
-                    let bsdf = Bsdf::Diffuse { reflectance: self.reflectance(*reflectance, &hit, path.offset) };
-                    self.scatter(&bsdf, path, &hit, sampler, &mut radiance)
-                }
-                Surface::Conductor { n, k, alpha, model } => {
-                    let surface = self.scene.object(hit.shape).surface;
-                    let fresnel = self.metal(*model, surface, [*n, *k], self.medium(path), path.offset);
-                    let bsdf = Bsdf::Conductor { fresnel, alpha: self.alpha_of_metal(*alpha, &hit) };
-                    self.scatter(&bsdf, path, &hit, sampler, &mut radiance)
-                }
-                Surface::Dielectric(interface) if Self::runs(Physics::CLEAR_MEDIA) => {
-                    let interface = self.boundary_at(interface, &hit);
-                    self.interface(&interface, path, (&hit, &also), sampler, &mut radiance)
-                }
-                Surface::Dielectric(_) => Outcome::Ended,
-            };
-            if matches!(outcome, Outcome::Ended) || !path.survives(sampler) {
+            let vertex = Vertex::new(path, (&hit, &also), self.medium(path));
+            if self.interact(&vertex, path).is_break() || !path.survives() {
                 break;
             }
         }
         rays::count(traced);
-        radiance
+    }
+
+    /// Sends a path on from what it has met, or ends it.
+    #[inline(always)]
+    fn interact<const N: usize>(&self, vertex: &Vertex<N>, path: &mut Path<N>) -> ControlFlow<()> {
+        let hit = vertex.hit;
+        match self.surface(hit) {
+            Surface::Black => ControlFlow::Break(()),
+            Surface::Diffuse { reflectance } => {
+                let reflectance = self.reflectance(*reflectance, vertex);
+                self.scatter(&Diffuse { reflectance }.into(), vertex, None, path)
+            }
+            Surface::Conductor { n, k, alpha, model } => {
+                let fresnel = self.metal(*model, [*n, *k], vertex);
+                let alpha = self.alpha_of_metal(*alpha, hit);
+                self.scatter(&Conductor { fresnel, alpha }.into(), vertex, None, path)
+            }
+            Surface::Dielectric(interface) if Self::runs(Physics::CLEAR_MEDIA) => {
+                let interface = self.boundary_at(interface, hit);
+                self.interface(&interface, vertex, path)
+            }
+            Surface::Dielectric(_) => ControlFlow::Break(()),
+        }
     }
 
     /// Spectral radiance of the surroundings from a direction that was chosen with a density. What has escaped is outside of all solids,
     /// whatever was entered where surfaces coincide.
     #[inline]
-    pub fn environment<const N: usize>(&self, direction: Vec3, pdf: f32, offset: u32) -> Lanes<N> {
+    pub fn environment<const N: usize>(&self, direction: Vec3, pdf: f32, wavelengths: Wavelengths<N>) -> Lanes<N> {
         let lights = &self.scene.lights;
-        let (mut arriving, map_pdf) = lights.environment(&self.tables, direction, offset);
+        let (mut arriving, map_pdf) = lights.environment(direction, wavelengths);
         if map_pdf > 0.0 {
             arriving *= balance_heuristic(pdf, map_pdf);
         }
         for (radiance, light_pdf) in lights.suns(direction) {
-            arriving += self.tables.get(radiance, offset) * balance_heuristic(pdf, light_pdf);
+            arriving += wavelengths.at(radiance) * balance_heuristic(pdf, light_pdf);
         }
-        arriving * self.transmittance(MediumId::OUTSIDE, f32::INFINITY, offset)
+        arriving * self.transmittance(MediumId::OUTSIDE, f32::INFINITY, wavelengths)
     }
 
     /// Light that a hit sends back along the ray, weighted against finding it by sampling the light.
@@ -188,7 +195,7 @@ impl<const P: u32> Tracer<'_, P> {
         let lights = &self.scene.lights;
         let Some(radiance) = lights.emitted(hit) else { return Lanes::ZERO };
         let emitted =
-            path.throughput * self.tables.get(radiance, path.offset) * self.compression(self.medium(path), path.offset);
+            path.throughput * path.wavelengths.at(radiance) * self.compression(self.medium(path), path.wavelengths);
         if path.pdf == f32::INFINITY {
             return emitted;
         }
@@ -202,20 +209,25 @@ impl<const P: u32> Tracer<'_, P> {
     /// it needs no state and leaves the throughput that roulette looks at alone; what the camera
     /// stands in counts once for the whole path.
     #[inline(always)]
-    pub fn compression<const N: usize>(&self, medium: MediumId, offset: u32) -> Lanes<N> {
+    pub fn compression<const N: usize>(&self, medium: MediumId, wavelengths: Wavelengths<N>) -> Lanes<N> {
         if !Self::runs(Physics::CLEAR_MEDIA) || medium == MediumId::OUTSIDE {
             return Lanes::ONE;
         }
-        self.concentration(MediumId::OUTSIDE, medium, offset)
+        self.concentration(MediumId::OUTSIDE, medium, wavelengths)
     }
 
     /// Share of light that a medium lets through over a length (Beer–Lambert).
     #[inline(always)]
-    pub fn transmittance<const N: usize>(&self, medium: MediumId, length: f32, offset: u32) -> Lanes<N> {
+    pub fn transmittance<const N: usize>(
+        &self,
+        medium: MediumId,
+        length: f32,
+        wavelengths: Wavelengths<N>,
+    ) -> Lanes<N> {
         let absorption = if self.needs(Physics::ABSORPTION) { self.scene.medium(medium).absorption } else { None };
         match absorption {
             None => Lanes::ONE,
-            Some(absorption) => self.tables.get::<N>(absorption, offset).map(|alpha| {
+            Some(absorption) => wavelengths.at(absorption).map(|alpha| {
                 let optical_depth = if alpha > 0.0 { alpha * length } else { 0.0 };
                 libm::expf(-optical_depth)
             }),
@@ -230,7 +242,7 @@ impl<const P: u32> Tracer<'_, P> {
 
     /// Index of refraction of a medium.
     #[inline]
-    pub fn n<const N: usize>(&self, medium: MediumId, offset: u32) -> Lanes<N> {
-        self.tables.get(self.scene.medium(medium).n, offset)
+    pub fn n<const N: usize>(&self, medium: MediumId, wavelengths: Wavelengths<N>) -> Lanes<N> {
+        wavelengths.at(self.scene.medium(medium).n)
     }
 }

@@ -1,6 +1,7 @@
 //! A surface as it is where a path meets it: pictures in place of what is said of it as a whole.
 
 use super::Tracer;
+use super::vertex::Vertex;
 use crate::geometry::Hit;
 use crate::math::Lanes;
 use crate::scene::{Interface, Pattern, Physics, Surface};
@@ -31,8 +32,8 @@ impl<const P: u32> Tracer<'_, P> {
 
     /// Reflectance at a hit of what reflects so as a whole.
     #[inline]
-    pub fn reflectance<const N: usize>(&self, whole: SpectrumId, hit: &Hit, offset: u32) -> Lanes<N> {
-        if self.needs(Physics::TEXTURES) { self.printed(whole, hit, offset) } else { self.tables.get(whole, offset) }
+    pub fn reflectance<const N: usize>(&self, whole: SpectrumId, vertex: &Vertex<N>) -> Lanes<N> {
+        if self.needs(Physics::TEXTURES) { self.printed(whole, vertex) } else { vertex.wavelengths.at(whole) }
     }
 
     /// A clear boundary as it is at a hit.
@@ -48,11 +49,12 @@ impl<const P: u32> Tracer<'_, P> {
     }
 
     #[inline(never)]
-    fn printed<const N: usize>(&self, whole: SpectrumId, hit: &Hit, offset: u32) -> Lanes<N> {
+    fn printed<const N: usize>(&self, whole: SpectrumId, vertex: &Vertex<N>) -> Lanes<N> {
+        let &Vertex { hit, wavelengths, .. } = vertex;
         let Some(tints) = self.pattern(hit).and_then(|pattern| pattern.reflectance.as_ref()) else {
-            return self.tables.get(whole, offset);
+            return wavelengths.at(whole);
         };
-        let positions = self.tables.positions(offset);
+        let positions = wavelengths.positions();
         let around = tints.around(self.uv(hit));
         around.iter().fold(Lanes::ZERO, |sum, (tint, weight)| sum + tint.at(positions) * *weight)
     }

@@ -1,128 +1,68 @@
-//! A path at an opaque surface: light sampled directly, then a new direction.
+//! A path at a surface that scatters, opaque or clear: light sampled directly, then a new direction for all lanes.
 
-use super::path::{Outcome, Path};
-use super::{Tracer, rays};
-use crate::bsdf::Bsdf;
-use crate::geometry::{Hit, Ray, Side};
-use crate::light::{LightSample, Receiver};
-use crate::math::Frame;
-use crate::math::Lanes;
+use super::Tracer;
+use super::path::Path;
+use super::vertex::{Beyond, Vertex};
+use crate::bsdf::{Bsdf, Draw, Lobe, RoughDielectric, Scatters, Sides};
+use crate::geometry::Ray;
 use crate::sampler::Sampler;
-use crate::scene::{MediumId, Physics};
-use glam::Vec3;
+use crate::scene::{Interface, Physics};
+use std::ops::ControlFlow;
 
-/// Balance heuristic's weight of a sample with density `taken` that `other` could have found too (Veach & Guibas 1995, eq. 10).
-///
-/// Their power heuristic (eq. 12, β = 2) had, with these stratified numbers at 64 and 256 samples, 1.04 and 1.06 × the MSE on
-/// `benches/peers/metals.toml`, 1.08 and 1.06 × on `scenes/rough-glass.toml`, the same on a diamond and the tray, 1.01 and 0.98 × in the
-/// Cornell box, 0.98 × on the ring.
-#[inline]
-pub fn balance_heuristic(taken: f32, other: f32) -> f32 {
-    1.0 / (1.0 + other / taken)
-}
-
-/// What a sample of a light counts, beside the `other` density of finding it by the surface.
-#[inline]
-pub fn weight(light: &LightSample, other: f32) -> f32 {
-    let share = if light.only { 1.0 } else { balance_heuristic(light.pdf, other) };
-    share * light.strength / light.pdf
-}
-
-/// What is left of light from `wi` where a smooth normal stands for flat triangles: none from below the triangle, and no hard
-/// edge where the triangle turns away before the normal does.
-///
-/// Source: M. J.-Y. Chiang, Y. K. Li, B. Burley, "Taming the Shadow Terminator", SIGGRAPH 2019 Talks: with
-/// G = (ωg·ωi) / ((ωs·ωi) (ωg·ωs)) below 1, the factor −G³ + G² + G, which is 1 with slope 0 at G = 1. It costs light: a white ball of
-/// 48 × 24 facets keeps 99.4 % in a furnace, one of 12 × 6 95.6 %. Metals show no such edge and are only cut below the triangle.
-#[inline]
-fn terminator<const N: usize>(bsdf: &Bsdf<N>, hit: &Hit, shading: Vec3, wi: Vec3) -> f32 {
-    if hit.shading == hit.normal {
-        return 1.0;
-    }
-    let normal = hit.outward();
-    if !matches!(bsdf, Bsdf::Diffuse { .. }) {
-        return if normal.dot(wi) > 0.0 { 1.0 } else { 0.0 };
-    }
-    let ratio = normal.dot(wi) / (shading.dot(wi) * normal.dot(shading));
-    let g = if ratio > 0.0 { ratio.min(1.0) } else { 0.0 };
-    g * (1.0 + g * (1.0 - g))
+/// Draws no more numbers than the surface uses: a mirror has nothing to choose, and what is seen in it is chosen by the
+/// better numbers.
+#[inline(always)]
+fn draw<const N: usize>(bsdf: &Bsdf<N>, sampler: &mut Sampler) -> Draw {
+    let lobe = if bsdf.has_lobes() { sampler.uniform() } else { 0.0 };
+    let uv = if bsdf.is_delta() { [0.0; 2] } else { sampler.uniform_2d() };
+    Draw { lobe, uv }
 }
 
 impl<const P: u32> Tracer<'_, P> {
-    /// An opaque surface: light sampled directly, then a new direction.
+    /// Sends a path on from a surface; `beyond` is given where it is clear.
     #[inline(always)]
     pub fn scatter<const N: usize>(
         &self,
         bsdf: &Bsdf<N>,
+        vertex: &Vertex<N>,
+        beyond: Option<&Beyond>,
         path: &mut Path<N>,
-        hit: &Hit,
-        sampler: &mut Sampler,
-        radiance: &mut Lanes<N>,
-    ) -> Outcome {
-        let frame = Frame::new(hit.facing(-path.ray.direction));
-        let wo = frame.to_local(-path.ray.direction);
+    ) -> ControlFlow<()> {
         if self.needs(Physics::LIGHT_SAMPLING) && !bsdf.is_delta() {
-            *radiance += path.throughput * self.direct(bsdf, &frame, wo, path, hit, sampler);
+            path.radiance += path.throughput * self.direct(bsdf, vertex, beyond, &mut path.sampler);
         }
-        // A mirror has nothing to choose; what is seen in it is chosen by the better numbers.
-        let u = if bsdf.is_delta() { [0.0; 2] } else { sampler.uniform_2d() };
-        let Some(sample) = bsdf.sample(wo, u) else { return Outcome::Ended };
-        let direction = frame.to_world(sample.wi);
-        path.throughput *= sample.weight * terminator(bsdf, hit, frame.z, direction);
-        path.pdf = if sample.delta { f32::INFINITY } else { sample.pdf };
-        path.normal = Some(hit.outward());
-        path.ray = Ray::leaving(hit, hit.side, direction);
-        Outcome::GoesOn
+        let draw = draw(bsdf, &mut path.sampler);
+        let Some(sample) = bsdf.sample(vertex.wo, draw) else { return ControlFlow::Break(()) };
+        let direction = vertex.frame.to_world(sample.wi);
+        let way = vertex.way(beyond, sample.wi);
+        let seen = vertex.terminator(bsdf, &way, direction);
+        if seen == 0.0 {
+            return ControlFlow::Break(());
+        }
+        path.throughput *= sample.weight * seen;
+        path.pdf = if sample.lobe == Lobe::Mirror { f32::INFINITY } else { sample.pdf };
+        path.normal = (bsdf.sides() == Sides::One).then(|| vertex.hit.outward());
+        if let (Lobe::Transmission, Some(beyond)) = (sample.lobe, beyond) {
+            path.media = beyond.media;
+        }
+        path.ray = Ray::leaving(way.hit, way.side, direction);
+        ControlFlow::Continue(())
     }
 
-    /// Light from one point of one light, reflected towards `wo`.
-    #[inline(always)]
-    fn direct<const N: usize>(
+    /// Sends a path on from a rough boundary of two clear media. All lanes go one way, whatever the index does: nothing
+    /// parts here, and a lane that has parted elsewhere goes on alone with a density of its own.
+    #[inline(never)]
+    pub fn scatter_clear<const N: usize>(
         &self,
-        bsdf: &Bsdf<N>,
-        frame: &Frame,
-        wo: Vec3,
-        path: &Path<N>,
-        hit: &Hit,
-        sampler: &mut Sampler,
-    ) -> Lanes<N> {
-        let (choice, u) = (sampler.uniform(), sampler.uniform_2d());
-        let receiver = Receiver { point: hit.point, normal: Some(hit.outward()) };
-        let Some(light) = self.scene.lights.sample(&self.scene.world, &receiver, choice, u) else {
-            return Lanes::ZERO;
-        };
-        let wi = frame.to_local(light.direction);
-        if wi.z <= 0.0 {
-            return Lanes::ZERO;
-        }
-        let value = bsdf.eval(wo, wi);
-        if value.pdf == 0.0 {
-            return Lanes::ZERO;
-        }
-        let arriving = self.arriving(&light, hit, hit.side, self.medium(path), path.offset);
-        let seen = terminator(bsdf, hit, frame.z, light.direction);
-        value.f_cos * arriving * (seen * weight(&light, value.pdf))
-    }
-
-    /// What a point of a light sends to one side of a hit through the medium there, in the measure of a path's throughput.
-    #[inline]
-    pub fn arriving<const N: usize>(
-        &self,
-        light: &LightSample,
-        hit: &Hit,
-        side: Side,
-        medium: MediumId,
-        offset: u32,
-    ) -> Lanes<N> {
-        // What comes from infinity is outside of all solids, as it is for a ray that escapes.
-        let medium = if light.distance == f32::INFINITY { MediumId::OUTSIDE } else { medium };
-        let shadow = Ray::leaving(hit, side, light.direction);
-        rays::count(1);
-        if self.hidden(&shadow, light, hit) {
-            return Lanes::ZERO;
-        }
-        light.radiance.at(&self.tables, offset)
-            * self.transmittance(medium, light.distance, offset)
-            * self.compression(medium, offset)
+        interface: &Interface,
+        vertex: &Vertex<N>,
+        beyond: &Beyond,
+        path: &mut Path<N>,
+    ) -> ControlFlow<()> {
+        let (from, to) = (vertex.medium, beyond.media.current());
+        let [n1, n2] = [from, to].map(|medium| self.n(medium, vertex.wavelengths));
+        let fresnel = self.boundary(interface.model, from, to, vertex.wavelengths);
+        let bsdf = RoughDielectric::new(fresnel, &n1, &n2, interface.alpha).into();
+        self.scatter(&bsdf, vertex, Some(beyond), path)
     }
 }

@@ -10,9 +10,7 @@ use super::path::Path;
 use crate::bsdf::dielectric::{reflect_lanes, refract_lanes};
 use crate::bsdf::{choose, keep_refracted};
 use crate::geometry::{Hit, Points, Shape};
-use crate::math::Lanes;
-use crate::math::Vectors;
-use crate::sampler::Sampler;
+use crate::math::{Lanes, Vectors};
 use crate::scene::{Interface, MediumId, Physics};
 
 /// Where lanes enter a stone, already refracted.
@@ -32,17 +30,12 @@ pub struct Exits<const N: usize> {
 
 impl<const P: u32> Tracer<'_, P> {
     /// Follows a path's lanes inside a convex solid until they leave; `None` when the path ends inside.
-    pub fn trace_stone<const N: usize>(
-        &self,
-        entry: &Entry<N>,
-        path: &mut Path<N>,
-        sampler: &mut Sampler,
-    ) -> Option<Exits<N>> {
+    pub fn trace_stone<const N: usize>(&self, entry: &Entry<N>, path: &mut Path<N>) -> Option<Exits<N>> {
         let Shape::Convex(solid) = self.scene.world.shape(entry.hit.shape)? else { return None };
         let Interface { medium, model, .. } = *entry.interface;
-        let inside = self.n(medium, path.offset);
-        let outside = self.n(entry.outside, path.offset);
-        let fresnel = self.boundary(model, medium, entry.outside, path.offset);
+        let inside = self.n(medium, path.wavelengths);
+        let outside = self.n(entry.outside, path.wavelengths);
+        let fresnel = self.boundary(model, medium, entry.outside, path.wavelengths);
         let mut origins = Points::splat(entry.hit.point);
         let mut directions = entry.directions;
         while path.depth < self.max_depth {
@@ -52,7 +45,7 @@ impl<const P: u32> Tracer<'_, P> {
             let normals = Vectors::from_fn(|lane| -solid.normal(exits.facet[lane]));
             let cos_theta_i = directions.dot(&normals).map(|cos| (-cos).clamp(0.0, 1.0));
             let boundary = fresnel.at(&inside, &outside, &cos_theta_i);
-            let choice = choose(&path.throughput, &boundary.r, sampler.uniform());
+            let choice = choose(&path.throughput, &boundary.r, path.sampler.uniform());
             path.throughput *= choice.weight;
             path.depth += 1;
             if !choice.reflect {
@@ -64,7 +57,7 @@ impl<const P: u32> Tracer<'_, P> {
                 return Some(Exits { origins, directions });
             }
             directions = reflect_lanes(&directions, &normals, &cos_theta_i);
-            if !path.survives(sampler) {
+            if !path.survives() {
                 return None;
             }
         }
@@ -78,7 +71,7 @@ impl<const P: u32> Tracer<'_, P> {
             return;
         }
         let Some(absorption) = self.scene.medium(medium).absorption else { return };
-        let optical_depth = self.tables.get::<N>(absorption, path.offset) * Lanes(*lengths);
+        let optical_depth = path.wavelengths.at(absorption) * Lanes(*lengths);
         path.throughput *= optical_depth.map(|depth| libm::expf(-depth));
     }
 }

@@ -17,8 +17,6 @@
 
 use super::Kernel;
 use super::path::Path;
-use crate::math::Lanes;
-use crate::sampler::Sampler;
 use crate::scene::Physics;
 use std::ops::Deref;
 
@@ -55,13 +53,13 @@ macro_rules! kernels {
         pub const COMPILED: &[Physics] = &[$($physics,)+ Physics::ALL];
 
         impl Kernel<'_> {
-            /// Spectral radiance (W m⁻² sr⁻¹ nm⁻¹) that arrives along a path's ray, a lane each.
+            /// Follows a path to its end; it gathers the radiance that arrives along its ray.
             #[inline]
-            pub fn radiance<const N: usize>(&self, path: &mut Path<N>, sampler: &mut Sampler) -> Lanes<N> {
+            pub fn follow<const N: usize>(&self, path: &mut Path<N>) {
                 $(if self.physics == $physics {
-                    return Tracer::<{ $physics.0 }>(self).radiance(path, sampler);
+                    return Tracer::<{ $physics.0 }>(self).follow(path);
                 })+
-                Tracer::<{ Physics::ALL.0 }>(self).radiance(path, sampler)
+                Tracer::<{ Physics::ALL.0 }>(self).follow(path)
             }
         }
     };

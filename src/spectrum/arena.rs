@@ -79,7 +79,7 @@ impl Tables {
 
     /// Where the lanes stand in the visible range, 0…1, once [`Self::push_positions`] has told.
     #[inline]
-    pub fn positions<const N: usize>(&self, offset: u32) -> Lanes<N> {
+    pub(super) fn positions<const N: usize>(&self, offset: u32) -> Lanes<N> {
         self.positions.map_or(Lanes::ZERO, |id| self.get(id, offset))
     }
 
@@ -89,7 +89,7 @@ impl Tables {
     }
 
     #[inline]
-    pub fn get<const N: usize>(&self, id: SpectrumId, offset: u32) -> Lanes<N> {
+    pub(super) fn get<const N: usize>(&self, id: SpectrumId, offset: u32) -> Lanes<N> {
         let start = id.0 as usize * NODE_COUNT + offset as usize;
         let lanes = &self.values[start..start + N];
         Lanes(std::array::from_fn(|lane| lanes[lane]))

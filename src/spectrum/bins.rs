@@ -12,7 +12,7 @@
 //! Cells are 0.13 nm wide where the eye sees best and 2 nm at 830 nm; inside of a cell radiance counts as flat, so narrower
 //! bins than that are as wide as a cell.
 
-use super::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, NODE_COUNT, Nodes};
+use super::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, NODE_COUNT, Nodes, Wavelengths};
 use std::str::FromStr;
 
 /// More bins than this are a mistake.
@@ -120,10 +120,13 @@ impl BinShares {
         shares
     }
 
-    /// Bins and weights of the lane at a place in the tables.
+    /// Bins and weights of one lane of a path.
     #[inline]
-    pub fn at(&self, offset: u32) -> &[(u32, f32)] {
-        let offset = offset as usize;
+    pub fn at(&self, wavelength: Wavelengths<1>) -> &[(u32, f32)] {
+        self.of_place(wavelength.place())
+    }
+
+    fn of_place(&self, offset: usize) -> &[(u32, f32)] {
         &self.entries[self.starts[offset] as usize..self.starts[offset + 1] as usize]
     }
 }
@@ -158,7 +161,10 @@ mod tests {
                 let shares = BinShares::new(&bins, &nodes, lanes);
                 let mut sums = vec![0.0; bins.count()];
                 for offset in 0..NODE_COUNT as u32 {
-                    shares.at(offset).iter().for_each(|&(bin, weight)| sums[bin as usize] += f64::from(weight));
+                    shares
+                        .of_place(offset as usize)
+                        .iter()
+                        .for_each(|&(bin, weight)| sums[bin as usize] += f64::from(weight));
                 }
                 let sets = (NODE_COUNT / lanes) as f64;
                 assert!(sums.iter().all(|sum| (sum / sets - 1.0).abs() < 1e-6), "{bins:?} × {lanes}");

@@ -6,7 +6,7 @@
 //!   through `words`, `rows`, `wave_unit` and `columns`; `absorbing` knows what states an absorption, `noise` what is passed over.
 //! - `integrate`: exact integrals of products of spectra; `observer`: the CIE observers.
 //! - `density`: how densely wavelengths are chosen; `nodes`: those that the renderer uses, and how they sample an integral.
-//! - `arena`: the spectra of a scene and their tables; `bins`: intervals of wavelength for spectral pictures.
+//! - `arena`: the spectra of a scene and their tables; `wavelengths`: those of a path, by which it reads them; `bins`: intervals of wavelength for spectral pictures.
 //! - `colorimeter`: from a reflectance to RGB, as tables are made.
 //! - `color`, `spaces`, `delta_e`, `upsample`: from XYZ to RGB, to a colour difference, and from RGB to a reflectance;
 //!   `upsample_table` does it for the texels of pictures, `tint` is what it makes of one; `primaries` does it linearly.
@@ -48,6 +48,7 @@ mod toml_file;
 mod upsample;
 mod upsample_table;
 mod wave_unit;
+mod wavelengths;
 mod words;
 
 pub use about::{About, Confidence, Dataset, Ior, Quantity, Sample, Source, citation};
@@ -73,6 +74,7 @@ pub use table::{Outside, Table};
 pub use tint::Tint;
 pub use upsample::Upsampler;
 pub use upsample_table::UpsampleTable;
+pub use wavelengths::Wavelengths;
 
 /// First and last wavelength that integrals, observers and the renderer use, nm.
 pub const LAMBDA_MIN_NM: f64 = 360.0;
