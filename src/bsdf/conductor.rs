@@ -8,8 +8,8 @@
 //! - Single scattering only: what facets reflect into each other is lost: ln 2 = 69 % of a white surface at α = 1, ωo = z;
 //!   1.2 % at α = 0.1.
 //! - Conventions: local frame, z the normal; ωo·h = |ωo + ωi|/2, so no half-vector is normalised.
-//! - Error: albedo by sampling against `albedo` to 1e-4 (`tests/bsdf_energy.rs`); samples follow the density by χ² from α = 1e-3 to 1, 0 to 89°
-//!   (`tests/bsdf_chi_squared.rs`). D of directions rounded to f32, α = 1e-3: to 1e-4 at 60°, 2.5e-3 at 89°, 3e-2 at 89.9°, without bias.
+//! - Error: albedo by sampling against `albedo` to 1e-4 (`tests/it/bsdf/energy.rs`); samples follow the density by χ² from α = 1e-3 to 1, 0 to 89°
+//!   (`tests/it/bsdf/chi_squared.rs`). D of directions rounded to f32, α = 1e-3: to 1e-4 at 60°, 2.5e-3 at 89°, 3e-2 at 89.9°, without bias.
 //! - Cost (`benches/bsdf.rs`, eight lanes): sample 24 ns with Schlick, 40–50 ns exact; eval 8 and 23–27 ns; mirror 4 and 18–20 ns.
 
 use super::{Draw, Eval, Lobe, Sample, Scatters, ggx};
@@ -19,7 +19,7 @@ use glam::Vec3;
 /// Below this α the surface is a mirror.
 ///
 /// At 1e-4 the highlight is 1.3e-4 rad wide from its centre to half its height: half an arc minute, less than a pixel of a
-/// 40° camera 4,000 pixels wide. The albedo differs from the mirror's by 3e-7 up to 80° and 3e-5 at 89° (`tests/bsdf_energy.rs`), and f32
+/// 40° camera 4,000 pixels wide. The albedo differs from the mirror's by 3e-7 up to 80° and 3e-5 at 89° (`tests/it/bsdf/energy.rs`), and f32
 /// directions still resolve the lobe (steps of 6e-8). So nothing jumps at the switch; below it, resolution would be lost for nothing.
 pub const MIRROR_ALPHA: f32 = 1e-4;
 

@@ -17,7 +17,7 @@
 //! - Radiance transport without compression: f conserves radiance over n², so a lossless surface keeps Σ weight ≤ 1 both ways and
 //!   f(ωo → ωi)/n2² = f(ωi → ωo)/n1². The renderer divides by n² where light joins the path.
 //! - Single scattering only: what facets send to other facets is lost (`albedo::dielectric` says how much).
-//! - Error (`tests/bsdf_rough_dielectric.rs`): both lobes by sampling against `albedo::dielectric` to 5e-4 of the incident light, α 1e-3 to 1,
+//! - Error (`tests/it/bsdf/rough_dielectric.rs`): both lobes by sampling against `albedo::dielectric` to 5e-4 of the incident light, α 1e-3 to 1,
 //!   0 to 85°; samples follow the mean density by χ² of one and of four lanes; differs from the smooth interface by 7e-6 at its threshold up to 80°.
 //! - Cost (`benches/bsdf.rs`, eight lanes): sample 210 ns, eval 80 ns in the mean of both lobes; the Beta function in f64 is part of it.
 //! - Valid for α from `conductor::MIRROR_ALPHA` to 1 (below it the smooth interface takes over) and for any n; see `part` for equal indices.

@@ -11,7 +11,7 @@
 //!   for n ≪ k. Forming n2/n1 first would cost 7e-6 in R; the usual form in cos 2θ returns R < 0 in 4 % of index-matched cases.
 //! - Valid for n1 > 0, n2 ≥ 0, k2 ≥ 0, |N| up to 1e4, 0 ≤ c ≤ 1; k2 = 0 is allowed (a dielectric, total reflection included).
 //!   Identical media give R = 0 at every angle.
-//! - Error against `exact` at the same f32 inputs (`tests/fresnel_kernels.rs`, n 0.02–30, k 0.05–60, n1 1–2.4): R to 7.4e-7 absolute,
+//! - Error against `exact` at the same f32 inputs (`tests/it/fresnel/kernels.rs`, n 0.02–30, k 0.05–60, n1 1–2.4): R to 7.4e-7 absolute,
 //!   1 − R to 6.6e-7 relative. Beside the critical angle of a nearly lossless medium the f32 input itself is ill-conditioned (5e-4).
 //! - Cost (`benches/fresnel.rs`, SSE2, Sapphire Rapids): 8 ns for one lane, 14 ns for eight; with 1 − R 10 and 18 ns.
 //!   A second division instead of scaling by g costs 8 % more. One form of Re w² instead of two saves 2 ns and costs 30 × in 1 − R

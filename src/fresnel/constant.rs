@@ -6,7 +6,7 @@
 //!
 //! - Source: what a colour picked for a metal means in a shader without a Fresnel term; F0 exact, of n and k.
 //! - A lossless interface still reflects all beyond its critical angle, or light would leave by directions that do not exist.
-//! - Error against `exact` (`tests/fresnel_models.rs`): 1 − F0 at grazing, 0.03 of silver's and 0.67 of gold's darkest channel.
+//! - Error against `exact` (`tests/it/fresnel/models.rs`): 1 − F0 at grazing, 0.03 of silver's and 0.67 of gold's darkest channel.
 //! - Cost (`benches/fresnel.rs`, SSE2, Sapphire Rapids): 1.7 ns for eight lanes at a hit, F0 included.
 
 use super::{Model, schlick};

@@ -7,7 +7,7 @@
 //! - Source: R. Cook & K. Torrance, "A reflectance model for computer graphics" (1982), their F (after J. Blinn 1977).
 //! - Exact but for rounding, which it suffers more of: n2/n1 is rounded before 1 is taken from its square, and g − c cancels where the
 //!   indices nearly match. g² ≤ 0 is total reflection.
-//! - Error against `exact` in f32 (`tests/fresnel_rgb.rs`): 7e-7 of R away from the critical angle; 2e-5 relative to R from 1.52 to 1.53.
+//! - Error against `exact` in f32 (`tests/it/fresnel/rgb.rs`): 7e-7 of R away from the critical angle; 2e-5 relative to R from 1.52 to 1.53.
 //! - Cost (`benches/fresnel.rs`, SSE2, Sapphire Rapids): 8 ns for eight lanes at a hit.
 
 use super::{Dielectric, Model, dielectric};

@@ -9,7 +9,7 @@
 //! - Source: Born & Wolf, *Principles of Optics* (7th ed., 1999), 1.5.2; r_p/r_s = −cos(θ_i + θ_t)/cos(θ_i − θ_t).
 //! - d + C² ≤ 0 is total reflection: R = 1 exactly and cos θ_t = 0. Identical media: R = 0 at every angle.
 //! - Valid for n1, n2 > 0 and 0 ≤ c ≤ 1 (a cosine a rounding above 1 does no harm).
-//! - Error against `exact` at the same f32 inputs (`tests/fresnel_kernels.rs`): R to 8e-7; beside the critical angle, where the
+//! - Error against `exact` at the same f32 inputs (`tests/it/fresnel/kernels.rs`): R to 8e-7; beside the critical angle, where the
 //!   input itself is ill-conditioned, to 2e-3. The second form of a² that `conductor` uses gains a factor 4 there and costs 5 ns: not taken.
 //! - Cost (`benches/fresnel.rs`, SSE2, Sapphire Rapids): 5.3 ns for one lane, 9.3 ns for eight, cos θ_t included.
 

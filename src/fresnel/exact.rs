@@ -13,7 +13,7 @@
 //!   The three real differences that remain are taken with 32 digits (`double`).
 //! - Convention: exp(−iωt), k ≥ 0, r_p = −r_s at normal incidence; phases are arg r in (−π, π].
 //! - Valid for n1 > 0, n2 ≥ 0, k2 ≥ 0 (not both 0), 0 ≤ c ≤ 1. Total reflection gives R = 1 and 1 − R = 0 exactly, identical media R = 0.
-//! - Error, against 60 digits (`tests/fresnel_hard.rs`): R and 1 − R to 7e-16, relative as well as absolute, phases to 5e-16 rad;
+//! - Error, against 60 digits (`tests/it/fresnel/hard.rs`): R and 1 − R to 7e-16, relative as well as absolute, phases to 5e-16 rad;
 //!   beside the critical angle too, because w is formed from the unrounded difference.
 //! - Cost: 0.12 µs (`benches/fresnel.rs`). Not for the inner loop: see `conductor` and `dielectric`.
 

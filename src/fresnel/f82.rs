@@ -6,7 +6,7 @@
 //! ```
 //!
 //! - Source: N. Hoffman, "Fresnel Equations Considered Harmful", MAM 2019; c (1 − c)⁶ is largest at c = 1/7, 81.8°.
-//! - Error against `exact` (`tests/fresnel_errors.rs`; mean and largest ΔE2000 over the angles): silver 0.03 and 0.06, aluminium 0.20 and 0.54,
+//! - Error against `exact` (`tests/it/fresnel/errors.rs`; mean and largest ΔE2000 over the angles): silver 0.03 and 0.06, aluminium 0.20 and 0.54,
 //!   copper 0.24 and 0.51, gold 0.44 and 0.94; diamond 1.2 and 2.8, no better than Schlick's.
 //! - Cost (`benches/fresnel.rs`, SSE2, Sapphire Rapids): 11 ns for eight lanes at a hit.
 

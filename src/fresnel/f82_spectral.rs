@@ -10,7 +10,7 @@
 //! - A lossless interface is fitted on its rarer side, where angles reach 90°; beyond the critical angle F = 1.
 //! - Where the indices nearly match, Schlick's curve is so far off at 82° that the correction leads below 0 elsewhere; a share of light is then
 //!   taken as 0. Metals and stones in air stay within 0…1 by themselves.
-//! - Error against `exact` (`tests/fresnel_models.rs`), largest over 380–780 nm and all angles: silver 0.002, copper 0.012, iron 0.019,
+//! - Error against `exact` (`tests/it/fresnel/models.rs`), largest over 380–780 nm and all angles: silver 0.002, copper 0.012, iron 0.019,
 //!   gold 0.029, diamond 0.030, aluminium 0.033.
 //! - Cost (`benches/fresnel.rs`, SSE2, Sapphire Rapids): 21 ns for eight lanes at a hit, against 14 of `exact`: b takes the exact model once,
 //!   so this is no way to save time where n and k are at hand.

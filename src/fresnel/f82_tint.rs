@@ -7,7 +7,7 @@
 //!
 //! - Source: P. Kutz, M. Hašan & D. Edmondson, "Novel aspects of the Adobe Standard Material" (2021), section 2.4; OpenPBR 1.1, `specular_color`.
 //! - The bounds keep it within 0…1 and lose colours: gold's red, 1.04, becomes 1.
-//! - Error against `exact` (`tests/fresnel_errors.rs`; mean and largest ΔE2000 over the angles): that of `f82` where the colour is within
+//! - Error against `exact` (`tests/it/fresnel/errors.rs`; mean and largest ΔE2000 over the angles): that of `f82` where the colour is within
 //!   0…1; gold 1.1 and 1.4, copper 1.4 and 1.8.
 //! - Cost (`benches/fresnel.rs`, SSE2, Sapphire Rapids): that of `f82`.
 

@@ -7,7 +7,7 @@
 //! - Source: O. Gulbrandsen, "Artist Friendly Metallic Fresnel" (JCGT 2014), eqs. 10–12. r is the exact colour at normal incidence, clipped to
 //!   0…`LARGEST_R`; g is what fits each channel best over 101 cosines, as far as it can be set: in steps of 1/400, the last one in hundredths.
 //! - Every (r, g) has an n and a k ≥ 0, and the F0 of those is r.
-//! - Error against `exact` (`tests/fresnel_errors.rs`; mean and largest ΔE2000 over the angles): silver 0.02 and 0.05, aluminium 0.06 and 0.20;
+//! - Error against `exact` (`tests/it/fresnel/errors.rs`; mean and largest ΔE2000 over the angles): silver 0.02 and 0.05, aluminium 0.06 and 0.20;
 //!   where the clip cuts red, gold 0.79 and 1.4, copper 1.3 and 1.5. The steps of g are most of it for white metals: with all digits of g
 //!   aluminium would have 0.007 and 0.03.
 //! - Cost (`benches/fresnel.rs`, SSE2, Sapphire Rapids): 17 to 35 ns for eight lanes at a hit, as it is inlined.

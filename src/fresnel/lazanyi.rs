@@ -9,7 +9,7 @@
 //!   F0 the exact colour.
 //! - Gold's blue has a second, deeper valley, α = 1 with a < 0: a bulge over all angles instead of a dip. It would bring the mean ΔE2000 from 0.35 to
 //!   0.29 and the largest from 0.8 to 1.0.
-//! - Error against `exact` (`tests/fresnel_errors.rs`; mean and largest ΔE2000 over the angles): silver 0.02 and 0.04, copper 0.07 and 0.13,
+//! - Error against `exact` (`tests/it/fresnel/errors.rs`; mean and largest ΔE2000 over the angles): silver 0.02 and 0.04, copper 0.07 and 0.13,
 //!   aluminium 0.14 and 0.25, gold 0.35 and 0.82: the best of all in RGB but for gold's green.
 //! - Cost (`benches/fresnel.rs`, SSE2, Sapphire Rapids): 92 ns for eight lanes at a hit, for its powers have no whole exponents.
 

@@ -9,7 +9,7 @@
 //!
 //! The reflectance of a mean index is not the mean reflectance, so none of them is exact even at normal incidence.
 //!
-//! - Error against `exact` (`tests/fresnel_errors.rs`; mean ΔE2000 over the angles): projected silver 0.01, aluminium 0.10, copper 0.96, gold 1.8;
+//! - Error against `exact` (`tests/it/fresnel/errors.rs`; mean ΔE2000 over the angles): projected silver 0.01, aluminium 0.10, copper 0.96, gold 1.8;
 //!   at 611, 549 and 464 nm 0.15, 0.35, 2.7 and 4.6; at 650, 550 and 450 nm 0.05, 0.12, 2.0 and 4.0. Schlick's is 0.9 for gold.
 //! - Cost (`benches/fresnel.rs`, SSE2, Sapphire Rapids): 32 ns for eight lanes at a hit.
 

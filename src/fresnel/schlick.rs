@@ -6,7 +6,7 @@
 //!
 //! - Source: C. Schlick, "An inexpensive BRDF model for physically-based rendering" (1994), eq. 15; F0 exact.
 //! - For a lossless interface left from its denser side, θ is the angle of refraction, and F = 1 beyond the critical angle.
-//! - Error against `exact` (`tests/fresnel_kernels.rs`): R up to 0.017 too high for gold, 0.09 aluminium, 0.18 iron, 0.20 chromium, all
+//! - Error against `exact` (`tests/it/fresnel/kernels.rs`): R up to 0.017 too high for gold, 0.09 aluminium, 0.18 iron, 0.20 chromium, all
 //!   near 83°, for it has no pseudo-Brewster dip; averaged over the hemisphere up to 0.030.
 //! - Cost (`benches/fresnel.rs`, SSE2, Sapphire Rapids): 3.5 ns for eight lanes, F0 and dispatch included.
 

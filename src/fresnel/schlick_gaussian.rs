@@ -7,7 +7,7 @@
 //! - Source: B. Karis, "Real Shading in Unreal Engine 4" (SIGGRAPH 2013 course notes), from S. Lagarde, "Spherical Gaussian approximation for
 //!   Blinn-Phong, Phong and Fresnel" (2012).
 //! - 2^(−12.54) of 1 − F0 is left at normal incidence: 1.7e-4.
-//! - Error against `exact` (`tests/fresnel_errors.rs`; mean and largest ΔE2000 over the angles): that of `schlick-rgb` within 0.02
+//! - Error against `exact` (`tests/it/fresnel/errors.rs`; mean and largest ΔE2000 over the angles): that of `schlick-rgb` within 0.02
 //!   for metals, 0.1 less for diamond.
 //! - Cost (`benches/fresnel.rs`, SSE2, Sapphire Rapids): 13 ns for eight lanes at a hit: the power of two costs more than Schlick's.
 

@@ -7,7 +7,7 @@
 //! - Source: C. Schlick, "An inexpensive BRDF model for physically-based rendering" (1994), eq. 15, for each channel.
 //! - F0 is neither clipped nor rounded: gold's red is 1.04.
 //! - After one bounce under D65 its colours are those of `schlick`, which is linear in F0 too; after more, and under other lights, they part.
-//! - Error against `exact` (`tests/fresnel_errors.rs`; mean and largest ΔE2000 over the angles): silver 0.09 and 0.27, copper 0.62 and 1.5,
+//! - Error against `exact` (`tests/it/fresnel/errors.rs`; mean and largest ΔE2000 over the angles): silver 0.09 and 0.27, copper 0.62 and 1.5,
 //!   gold 0.87 and 2.4, aluminium 0.89 and 3.0, iron 2.1 and 6.2.
 //! - Cost (`benches/fresnel.rs`, SSE2, Sapphire Rapids): 11 ns for eight lanes at a hit.
 

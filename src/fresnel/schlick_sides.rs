@@ -8,7 +8,7 @@
 //!   curve belongs to the rarer side: P. Shirley in S. Marschner & P. Shirley, *Fundamentals of Computer Graphics* (3rd ed., 2009), 13.1.
 //! - Both are 1 beyond the critical angle. The incident form jumps there: from 0.04 in glass and 0.17 in diamond, for it hardly rises before.
 //! - `schlick` is the transmitted form; the name here says so, and that only dielectrics are meant.
-//! - Error against `exact` from the denser side (`tests/fresnel_rgb.rs`): the average over the hemisphere, 0.5963 in glass of n = 1.5, is 0.5734 by
+//! - Error against `exact` from the denser side (`tests/it/fresnel/rgb.rs`): the average over the hemisphere, 0.5963 in glass of n = 1.5, is 0.5734 by
 //!   the incident and 0.5937 by the transmitted form; in diamond 0.8651, 0.8583 and 0.8650.
 //! - Cost (`benches/fresnel.rs`, SSE2, Sapphire Rapids): that of `schlick`, 2.2 ns for eight lanes at a hit.
 

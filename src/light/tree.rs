@@ -11,7 +11,7 @@
 //! eight lights are compared directly with each other, a thousand in four steps, and with few steps there is little to go wrong in
 //! what a group's box hides.
 //!
-//! Measured without anything in between, at surfaces in a room of lamps (`tests/light_tree/choice.rs`): the variance of a sample over the
+//! Measured without anything in between, at surfaces in a room of lamps (`tests/it/light/tree/choice.rs`): the variance of a sample over the
 //! squared irradiance, by power and by the tree, is 2.8 and 0.13 with eight small balls, 8.3 and 0.5 with 64, 39 and 1.3 with 1000; without
 //! the surface's normal 1.7, 2.2 and 4.1. Centres and spreads of light in place of those of boxes were up to 40 times worse: a bound too
 //! low is a bright dot. A node costs about 150 instructions.

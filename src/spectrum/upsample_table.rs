@@ -8,7 +8,7 @@
 //!
 //! - Radiance: one level, 1/2, and a factor of twice the largest channel. Reflectance: [`LEVELS`] levels, linear sRGB.
 //! - Cost: 0.05 s for radiance, 0.13 s for reflectance, once (two cores).
-//! - Error, ΔE2000 of RGB → spectrum → RGB under D65 over 3,000 random colours (`tests/spectrum_color.rs`):
+//! - Error, ΔE2000 of RGB → spectrum → RGB under D65 over 3,000 random colours (`tests/it/spectrum/color.rs`):
 //!
 //! | | mean | 99 % | largest |
 //! |---|---|---|---|

@@ -7,10 +7,12 @@ pub mod compare;
 pub mod facets;
 pub mod files;
 pub mod lanes;
+pub mod meshes;
 pub mod paper;
 pub mod pictures;
 pub mod plates;
 pub mod prism;
+pub mod random;
 
 use spectrel::film::{Film, Window};
 use spectrel::render::{Kernel, render};

@@ -13,7 +13,7 @@
 //! numbers.
 //!
 //! From file to [`MeshFile`], a torus of 1 M triangles with normals and texture coordinates, one thread of a Zen 4
-//! server (`times::load_times` of `tests/geometry_loaders` prints it):
+//! server (`times::load_times` of `tests/it/geometry/loaders` prints it):
 //!
 //! | file | MB | s |
 //! |---|---|---|

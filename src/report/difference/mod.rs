@@ -14,7 +14,7 @@
 //!   from T to M and further by the jackknife's reach of each ([`super::jackknife`]). A picture is different if
 //!   the interval does not touch 0, or if the 99 % interval of its energy leaves out 0: a change of all pixels that is small beside the
 //!   noise of each shows in their sum only. What is no more than the rounding of single precision is none. Without a difference the jackknife's reach is about 1.5 times too wide (8 replicates; Efron &
-//!   Stein 1981): false alarms are rarer than the nominal 3.5 % (`tests/compare_statistics.rs`).
+//!   Stein 1981): false alarms are rarer than the nominal 3.5 % (`tests/it/report/compare_statistics.rs`).
 //!
 //! What no path has found is in no replicate. Where light comes by ways that nothing aims at, the interval of ΔE ends as much higher, begins
 //! twice as much lower, and that of the energy is as much wider, as such light may change them ([`super::bound`]): a model has it or has it not.

@@ -6,7 +6,7 @@
 //!
 //! - Source: `fresnel::exact` from vacuum, for every wavelength that the instrument counts.
 //! - F_avg by 16-point Gauss–Legendre in t with c = t², which gathers points where metals dip. Error against the adaptive rule
-//!   (`tests/f0_tables.rs`): 4e-10 in linear sRGB for every data set of the library but air, 4e-8 there, whose F rises within 1° of grazing.
+//!   (`tests/it/report/f0_tables.rs`): 4e-10 in linear sRGB for every data set of the library but air, 4e-8 there, whose F rises within 1° of grazing.
 
 use super::{Color, Engines, Instrument};
 use crate::fresnel::{COS_82, exact};

@@ -5,7 +5,7 @@
 //! - F_avg = 2 ∫ F c dc of each channel, by Simpson's rule over those cosines: within 2e-6 (tested against `fresnel::average`).
 //! - After m bounces at equal angle the colour is that of F(λ, c)^m. An RGB model has its channels' powers, whatever the light; exact colours are
 //!   adapted from the light's white (Bradford). That is the kindest reading of RGB: of gold's F0 it is off by ΔE 1.0 under A. Were nothing
-//!   adapted, and the channels multiplied with those of the light, it would be off by 6.9 (`tests/fresnel_errors.rs`).
+//!   adapted, and the channels multiplied with those of the light, it would be off by 6.9 (`tests/it/fresnel/errors.rs`).
 
 use super::Subject;
 use crate::fresnel::{COSINES, FresnelModel, RgbCurve, Tabulated, Target};

@@ -1,0 +1,5 @@
+//! Surfaces by themselves: samplers, densities, energy and reciprocity.
+
+mod chi_squared;
+mod energy;
+mod rough_dielectric;

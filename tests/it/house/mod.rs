@@ -1,0 +1,5 @@
+//! What the documents and the source promise of themselves.
+
+mod readme;
+mod reference;
+mod rooms;

@@ -1,0 +1,6 @@
+//! The light tree: its choice as a probability, and the light that it finds.
+
+mod choice;
+mod copies;
+mod lamps;
+mod light;

@@ -1,0 +1,4 @@
+//! Pictures that come in, and pictures on surfaces.
+
+mod files;
+mod surfaces;
