@@ -5,9 +5,7 @@ use crate::geometry::{Mesh, Shape};
 use crate::light::Source;
 use crate::report::markup;
 use crate::scene::describe::ExposureValue;
-use crate::scene::{
-    Decision, Interface, MediumId, Needs, Object, Overrides, Scene, SceneError, Surface, listed, resolve,
-};
+use crate::scene::{Decision, MediumId, Needs, Object, Overrides, Scene, SceneError, Surface, listed, resolve};
 use crate::spectrum::{About, citation};
 use clap::Args;
 use glam::DVec3;
@@ -125,8 +123,8 @@ fn report(scene: &Scene) -> Report {
         shape: shape_kind(shape),
         material: object.material.clone(),
         kind: match scene.patterns.get(&object.surface) {
-            Some(pattern) => format!("{}, by {}", surface_kind(&surface(object)), pattern.files.join(" and ")),
-            None => surface_kind(&surface(object)),
+            Some(pattern) => format!("{}, by {}", Surface::describe(&surface(object)), pattern.files.join(" and ")),
+            None => Surface::describe(&surface(object)),
         },
         extent: Extent::of(shape, scene),
     });
@@ -180,19 +178,6 @@ fn mesh_kind(mesh: &Mesh) -> String {
         0 if !mesh.surroundings().is_solid() => format!("mesh of {triangles} triangles that enclose nothing"),
         0 => format!("closed mesh of {triangles} triangles"),
         open => format!("mesh of {triangles} triangles, {open} open edges"),
-    }
-}
-
-fn surface_kind(surface: &Surface) -> String {
-    match surface {
-        Surface::Black => "black".into(),
-        Surface::Diffuse { .. } => "diffuse".into(),
-        Surface::Conductor { alpha: 0.0, model, .. } => format!("smooth conductor, {model} Fresnel"),
-        Surface::Conductor { alpha, model, .. } => format!("conductor of roughness {alpha}, {model} Fresnel"),
-        Surface::Dielectric(Interface { model, alpha: 0.0, .. }) => format!("dielectric, {model} Fresnel"),
-        Surface::Dielectric(Interface { model, alpha, .. }) => {
-            format!("dielectric of roughness {alpha}, {model} Fresnel")
-        }
     }
 }
 

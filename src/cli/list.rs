@@ -2,7 +2,7 @@
 
 use super::{LibraryArgs, show};
 use crate::report::markup;
-use crate::scene::describe::{IndexSource, Material, ReflectanceSource};
+use crate::scene::materials::{Kind, Material};
 use crate::scene::{SceneError, Text};
 use crate::spectrum::{About, Library, Observer, Quantity, citation};
 use clap::{Args, ValueEnum};
@@ -107,19 +107,8 @@ fn material(library: &Library, name: &str) -> Result<Entry, SceneError> {
     let found = library.material(name)?;
     let text = Text::new(found.origin, found.text);
     let material: Material = text.parse()?;
-    let index = |source: &IndexSource| match source {
-        IndexSource::Name(name) => Some((Quantity::Ior, name.clone())),
-        IndexSource::Constant { .. } | IndexSource::Own(_) => None,
-    };
-    let (kind, data) = match (&material.conductor, &material.dielectric, &material.diffuse) {
-        (Some(conductor), ..) => ("conductor", index(conductor.get_ref().ior.get_ref())),
-        (_, Some(dielectric), _) => ("dielectric", index(dielectric.get_ref().ior.get_ref())),
-        (.., Some(diffuse)) => match diffuse.get_ref().reflectance.get_ref() {
-            ReflectanceSource::Name(name) => ("diffuse", Some((Quantity::Reflectance, name.clone()))),
-            _ => ("diffuse", None),
-        },
-        _ => ("no kind", None),
-    };
+    let kind = material.kind().map_or("no kind", Kind::name);
+    let data = material.data().map(|(quantity, name)| (quantity, name.to_owned()));
     let about = match &data {
         Some((quantity, name)) => about(library, *quantity, name, &found.base)?,
         None => About::default(),

@@ -10,7 +10,7 @@ use super::Tracer;
 use super::interface::MOST;
 use crate::geometry::{Hit, Ray};
 use crate::light::LightSample;
-use crate::scene::{Physics, Surface};
+use crate::scene::Physics;
 
 impl<const P: u32> Tracer<'_, P> {
     /// Whether something hides a light from a hit that a shadow ray leaves.
@@ -32,7 +32,7 @@ impl<const P: u32> Tracer<'_, P> {
         let world = &self.scene.world;
         let mut also = Vec::new();
         while let Some(hit) = world.closest_beyond(shadow, &also, light.distance) {
-            let is_clear = matches!(self.surface(&hit), Surface::Dielectric(_));
+            let is_clear = self.surface(&hit).is_clear();
             if !(is_clear && also.len() < MOST && world.is_at_origin(shadow, &hit)) {
                 return !light.target.is_some_and(|target| world.is_at_end(shadow, &hit, light.distance, target));
             }

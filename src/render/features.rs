@@ -12,12 +12,11 @@
 //! For denoisers mirrors are followed, as the same manual advises ("perfect specular surfaces"): a smooth metal shows albedo × its own
 //! and the normal of what it reflects, so that what is seen in it stays sharp. A mirror that shows nothing but sky keeps its own.
 
-use crate::bsdf::conductor::MIRROR_ALPHA;
 use crate::bsdf::dielectric::reflect;
 use crate::fresnel::{self, FresnelModel, Specimen, Target};
 use crate::geometry::{Hit, Ray, Side};
 use crate::math::Lanes;
-use crate::scene::{MediumId, Needs, Scene, Surface};
+use crate::scene::{MediumId, Metal, Needs, Scene, Surface};
 use crate::spectrum::{
     Daylight, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Matrix3, NODE_COUNT, Nodes, RgbSpace, Spectrum, SpectrumId, Tint, Xyz,
     bradford,
@@ -117,7 +116,7 @@ impl Guides {
 fn is_mirror(scene: &Scene, hit: &Hit) -> bool {
     let surface = scene.object(hit.shape).surface;
     let varies = scene.patterns.get(&surface).is_some_and(|pattern| pattern.alpha.is_some());
-    let smooth = matches!(scene.surfaces[surface as usize], Surface::Conductor { alpha, .. } if alpha < MIRROR_ALPHA);
+    let smooth = matches!(&scene.surfaces[surface as usize], Surface::Conductor(metal) if metal.is_smooth());
     smooth && !varies
 }
 
@@ -184,8 +183,8 @@ impl<'a> White<'a> {
         match *surface {
             Surface::Black => [0.0; 3],
             Surface::Dielectric(_) => [1.0; 3],
-            Surface::Diffuse { reflectance } => self.color(self.values(reflectance)),
-            Surface::Conductor { n, k, model, .. } => {
+            Surface::Diffuse(matt) => self.color(self.values(matt.reflectance)),
+            Surface::Conductor(Metal { n, k, model, .. }) => {
                 let specimen = self.scene.metal([n, k], MediumId::OUTSIDE);
                 self.color(self.head_on(model, specimen))
             }

@@ -9,7 +9,7 @@ use crate::bsdf::dielectric::{reflect, refract, refract_lanes};
 use crate::bsdf::{choose, keep_refracted};
 use crate::geometry::{Departure, Hit, Ray, Side};
 use crate::math::{Lanes, Vectors};
-use crate::scene::{Filling, Inside, Interface, Object, Physics, Surface};
+use crate::scene::{Filling, Inside, Interface, Object, Physics};
 use std::ops::ControlFlow;
 
 /// Boundaries that coincide at one place, at most. More than anybody stacks; without an end two
@@ -33,7 +33,7 @@ impl<const P: u32> Tracer<'_, P> {
     fn contact(&self, mut boundary: Boundary, ray: &Ray, also: &[Departure]) -> Boundary {
         let mut before = Vec::new();
         while let Some(next) = self.scene.world.beside(ray, also, &boundary.far, &before) {
-            let (Surface::Dielectric(interface), true) = (self.surface(&next), before.len() < MOST) else { break };
+            let (Some(interface), true) = (self.surface(&next).interface(), before.len() < MOST) else { break };
             let interface = self.boundary_at(interface, &next);
             let rank = self.scene.object(next.shape).rank;
             let entering = next.side == Side::Outside;
@@ -67,7 +67,7 @@ impl<const P: u32> Tracer<'_, P> {
     #[inline(never)]
     fn next_beyond<const N: usize>(&self, path: &Path<N>, also: &mut Vec<Departure>, mut hit: Hit) -> Option<Hit> {
         while also.len() < MOST && self.scene.world.is_at_origin(&path.ray, &hit) {
-            let Surface::Dielectric(interface) = self.surface(&hit) else { break };
+            let Some(interface) = self.surface(&hit).interface() else { break };
             let solid = Filling { rank: self.scene.object(hit.shape).rank, medium: interface.medium };
             if path.media.across(solid, hit.side == Side::Outside, &self.buried) != path.media {
                 break;

@@ -14,7 +14,7 @@ use crate::geometry::{Hit, Ray};
 use crate::light::Receiver;
 use crate::math::Lanes;
 use crate::sampler::Sampler;
-use crate::scene::{MediumId, Physics, Surface};
+use crate::scene::{MediumId, Metal, Physics, Surface};
 use crate::spectrum::Wavelengths;
 use glam::Vec3;
 use std::ops::ControlFlow;
@@ -157,11 +157,11 @@ impl<const P: u32> Tracer<'_, P> {
         let hit = vertex.hit;
         match self.surface(hit) {
             Surface::Black => ControlFlow::Break(()),
-            Surface::Diffuse { reflectance } => {
-                let reflectance = self.reflectance(*reflectance, vertex);
+            Surface::Diffuse(matt) => {
+                let reflectance = self.reflectance(matt.reflectance, vertex);
                 self.scatter(&Diffuse { reflectance }.into(), vertex, None, path)
             }
-            Surface::Conductor { n, k, alpha, model } => {
+            Surface::Conductor(Metal { n, k, alpha, model }) => {
                 let fresnel = self.metal(*model, [*n, *k], vertex);
                 let alpha = self.alpha_of_metal(*alpha, hit);
                 self.scatter(&Conductor { fresnel, alpha }.into(), vertex, None, path)

@@ -126,8 +126,8 @@ impl<'a> Lobes<'a> {
 /// The α of the sharpest lobe of an object's surface, 0 if it is smooth; `None` if it has no lobe.
 fn alpha(scene: &Scene, id: ShapeId, object: &Object) -> Option<f64> {
     let (own, sharper) = match scene.surfaces[object.surface as usize] {
-        Surface::Black | Surface::Diffuse { .. } => return None,
-        Surface::Conductor { alpha, .. } => (alpha, 1.0),
+        Surface::Black | Surface::Diffuse(_) => return None,
+        Surface::Conductor(metal) => (metal.alpha, 1.0),
         Surface::Dielectric(interface) => {
             let eta = least_contrast(scene, id, interface.medium);
             (interface.alpha, ((1.0 - 1.0 / eta) / SQRT_2).max(THINNEST))
@@ -142,11 +142,10 @@ fn alpha(scene: &Scene, id: ShapeId, object: &Object) -> Option<f64> {
 
 /// The smallest ratio, above 1, of the indices of a solid's medium and of another that it may stand in or touch.
 fn least_contrast(scene: &Scene, id: ShapeId, medium: MediumId) -> f64 {
-    let beside =
-        scene.world.near(id).filter_map(|(other, _)| match scene.surfaces[scene.object(other).surface as usize] {
-            Surface::Dielectric(interface) => Some(interface.medium),
-            _ => None,
-        });
+    let beside = scene.world.near(id).filter_map(|(other, _)| {
+        let surface = &scene.surfaces[scene.object(other).surface as usize];
+        surface.interface().map(|interface| interface.medium)
+    });
     let own = index(scene, medium);
     let others = beside.chain([MediumId::OUTSIDE]).filter(|other| *other != medium).map(|other| index(scene, other));
     others.map(|other| (own / other).max(other / own)).fold(f64::INFINITY, f64::min)
@@ -335,8 +334,7 @@ fn enclosed(scene: &Scene) -> Vec<String> {
     let inside = |id: ShapeId| {
         let center = scene.world.shape(id)?.bounds().center();
         let (outer, _) = scene.world.near(id).find(|(other, its)| {
-            matches!(scene.surfaces[scene.object(*other).surface as usize], Surface::Dielectric(_))
-                && its.contains(center)
+            scene.surfaces[scene.object(*other).surface as usize].is_clear() && its.contains(center)
         })?;
         Some(format!("`{}`, which is inside of `{}`", scene.object(id).name, scene.object(outer).name))
     };

@@ -3,8 +3,8 @@
 //! Kinds are externally tagged (`shape.sphere = { … }`, `[conductor]`), so that an error points at the exact place; untagged
 //! and flattened structures lose it.
 
+use super::materials::Material;
 use super::numbers::{Finite, Length, Lengths, Numbers};
-use super::own_index::OwnIndex;
 pub use super::pictures::{ColorSpaceName, EnvironmentImage, ImageTexture, TextureSpaceName};
 use crate::fresnel::FresnelModel;
 use serde::{Deserialize, Serialize};
@@ -274,93 +274,6 @@ pub struct OwnTable {
     pub wavelength_nm: Vec<Spanned<f64>>,
     /// As many as wavelengths; in W m⁻² sr⁻¹ nm⁻¹ if `scale` is given, in any unit otherwise.
     pub value: Vec<Spanned<f64>>,
-}
-
-/// A material: a file of `materials/` or an entry of a scene's `[materials]`. It is of exactly one kind.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Material {
-    /// For people.
-    pub description: Option<String>,
-    /// Other names; the library looks materials up by them.
-    #[serde(default)]
-    pub aliases: Vec<String>,
-    pub conductor: Option<Spanned<Conductor>>,
-    pub dielectric: Option<Spanned<Dielectric>>,
-    pub diffuse: Option<Spanned<Diffuse>>,
-}
-
-/// A metal: it reflects at its surface, and what enters is lost. Smooth unless one of the two words for roughness is given.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Conductor {
-    pub ior: Spanned<IndexSource>,
-    /// GGX α, 0…1.
-    pub roughness: Option<Spanned<RoughnessSource>>,
-    /// r with α = r².
-    pub perceptual_roughness: Option<Spanned<RoughnessSource>>,
-    /// `exact` unless given.
-    pub fresnel: Option<Spanned<FresnelModel>>,
-}
-
-/// A clear or coloured solid such as glass, water or a gem. Smooth unless one of the two words for
-/// roughness is given. Solids may be in each other, however many. Faces that coincide are in
-/// optical contact: two clear solids that touch have one boundary, and something opaque that lies
-/// on a face (a sheet, or a solid with a face in common) covers it, whatever the order of the
-/// objects. From outside it is seen in front of the glass, from within as in the glass; a lamp
-/// shines into the glass from the side that faces it. A gap of 1e-5 of their size puts air between.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Dielectric {
-    /// Where its k exceeds 0.001 it shows in what is reflected, too.
-    pub ior: Spanned<IndexSource>,
-    /// From the k of `ior` unless given.
-    pub absorption: Option<Spanned<AbsorptionSource>>,
-    /// GGX α, 0…1.
-    pub roughness: Option<Spanned<RoughnessSource>>,
-    /// r with α = r².
-    pub perceptual_roughness: Option<Spanned<RoughnessSource>>,
-    /// `exact` unless given.
-    pub fresnel: Option<FresnelModel>,
-}
-
-/// A matt surface that scatters alike in all directions (Lambert).
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Diffuse {
-    pub reflectance: Spanned<ReflectanceSource>,
-}
-
-/// A data set's name or file, or plain numbers.
-#[derive(Debug)]
-pub enum IndexSource {
-    Name(String),
-    Constant { n: f64, k: f64 },
-    Own(Box<OwnIndex>),
-}
-
-/// A data set's name or file, or one coefficient for all wavelengths.
-#[derive(Debug)]
-pub enum AbsorptionSource {
-    Name(String),
-    /// In m⁻¹, natural base.
-    PerMetre(f64),
-}
-
-/// A data set's name or file, one value for all wavelengths, a linear sRGB colour to be upsampled, or a picture of colours.
-#[derive(Debug)]
-pub enum ReflectanceSource {
-    Name(String),
-    Constant(f64),
-    Rgb([f64; 3]),
-    Image(ImageTexture),
-}
-
-/// One value for the whole surface, or a picture of values.
-#[derive(Debug)]
-pub enum RoughnessSource {
-    Constant(f64),
-    Image(ImageTexture),
 }
 
 /// A shape at a place, of a material, with or without light of its own.

@@ -3,9 +3,9 @@
 //! Untagged serde enums would do it too, but they lose the place of what is wrong inside a table; one visitor keeps it.
 
 use super::describe::{
-    AbsorptionSource, Environment, ExposureValue, ImageTexture, IndexSource, LightSpectrum, OwnLight,
-    ReflectanceSource, RoughnessSource, Scale, Shape, TextureSpaceName,
+    Environment, ExposureValue, ImageTexture, LightSpectrum, OwnLight, Scale, Shape, TextureSpaceName,
 };
+use super::materials::{AbsorptionSource, IndexSource, ReflectanceSource, RoughnessSource};
 use super::numbers::{Finite, Numbers};
 use super::own_index::{OneOrThree, OwnIndex};
 use super::pictures::WrapName;

@@ -5,6 +5,7 @@ pub mod describe;
 mod error;
 mod forms;
 mod lighting;
+pub mod materials;
 mod needs;
 mod numbers;
 mod optics;
@@ -17,12 +18,12 @@ mod words;
 
 pub use chance::Chance;
 pub use error::{Place, SceneError, Text};
+pub use materials::{Interface, Matt, Metal, Surface};
 pub use needs::{Decision, Needs, listed};
 pub use optics::{Class, Optics, class_of, optics};
 pub use physics::Physics;
 pub use resolve::{Overrides, resolve};
 
-use crate::bsdf::conductor::MIRROR_ALPHA;
 use crate::camera::{Camera, Filter};
 use crate::fresnel::{FresnelModel, Specimen};
 use crate::geometry::{Departure, Hit, Ray, ShapeId, World};
@@ -112,33 +113,6 @@ pub struct Around {
     pub some: Vec<(ShapeId, Filling)>,
 }
 
-/// What happens to light at an object.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Surface {
-    /// What only shines.
-    Black,
-    Diffuse {
-        reflectance: SpectrumId,
-    },
-    Conductor {
-        n: SpectrumId,
-        k: SpectrumId,
-        alpha: f32,
-        model: FresnelModel,
-    },
-    Dielectric(Interface),
-}
-
-impl Surface {
-    /// Its Fresnel model, if light is reflected by one.
-    pub fn model(&self) -> Option<FresnelModel> {
-        match self {
-            Self::Black | Self::Diffuse { .. } => None,
-            Self::Conductor { model, .. } | Self::Dielectric(Interface { model, .. }) => Some(*model),
-        }
-    }
-}
-
 /// Pictures on a surface, in place of what [`Surface`] says of it as a whole.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pattern {
@@ -148,24 +122,6 @@ pub struct Pattern {
     pub alpha: Option<Texels<f32>>,
     /// As the scene calls them.
     pub files: Vec<String>,
-}
-
-/// The boundary of a closed solid.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Interface {
-    /// What fills the solid.
-    pub medium: MediumId,
-    /// GGX α of its surface.
-    pub alpha: f32,
-    pub model: FresnelModel,
-}
-
-impl Interface {
-    /// Whether it scatters all lanes one way, instead of parting them into directions of their own.
-    #[inline]
-    pub fn is_rough(&self) -> bool {
-        self.alpha >= MIRROR_ALPHA
-    }
 }
 
 /// How the inside of a dielectric solid is traced.

@@ -63,14 +63,15 @@ fn decision(part: &'static str, used: bool, reason: impl Into<String>) -> Decisi
 fn physics(scene: &Scene) -> Physics {
     let any = |holds: &dyn Fn(&Surface) -> bool| !objects_with(scene, holds).is_empty();
     let varies = scene.patterns.values().any(|pattern| pattern.alpha.is_some());
-    let metal = |surface: &Surface| matches!(surface, Surface::Conductor { alpha, .. } if varies || *alpha > 0.0);
-    let glass = |surface: &Surface| matches!(surface, Surface::Dielectric(i) if varies || i.is_rough());
+    let rough = |surface: &Surface| varies || surface.is_rough();
+    let metal = |surface: &Surface| matches!(surface, Surface::Conductor(_)) && rough(surface);
+    let glass = |surface: &Surface| surface.is_clear() && rough(surface);
     [
         (Physics::LIGHT_SAMPLING, light_sampling(scene).used),
         (Physics::ROUGH_METAL, any(&metal)),
         (Physics::TEXTURES, textures(scene).used),
         (Physics::APPROXIMATIONS, approximations(scene).used),
-        (Physics::CLEAR_MEDIA, any(&|surface| matches!(surface, Surface::Dielectric(_)))),
+        (Physics::CLEAR_MEDIA, any(&Surface::is_clear)),
         (Physics::ABSORPTION, absorption(scene).used),
         (Physics::COMPLEX_INDEX, complex_index(scene).used),
         (Physics::DISPERSION, dispersion(scene).used),
@@ -122,16 +123,13 @@ fn dispersion(scene: &Scene) -> Decision {
 }
 
 fn stones(scene: &Scene) -> Decision {
-    let smooth = |object: &&Object| match scene.surfaces[object.surface as usize] {
-        Surface::Dielectric(interface) => !interface.is_rough(),
-        _ => false,
-    };
-    let parts = |object: &&Object| match scene.surfaces[object.surface as usize] {
-        Surface::Dielectric(interface) => {
+    let interface = |object: &Object| scene.surfaces[object.surface as usize].interface();
+    let smooth = |object: &&Object| interface(object).is_some_and(|interface| !interface.is_rough());
+    let parts = |object: &&Object| {
+        interface(object).is_some_and(|interface| {
             let disperses = |medium| scene.medium(medium).dispersive;
             scene.settings.lanes == 1 || disperses(interface.medium) || disperses(MediumId::OUTSIDE)
-        }
-        _ => false,
+        })
     };
     let alone = scene.objects.iter().filter(|object| object.inside == Inside::Alone).filter(smooth).filter(parts);
     match alone.map(|object| object.name.as_str()).collect::<Vec<_>>() {
@@ -204,12 +202,7 @@ fn covered(scene: &Scene) -> Option<String> {
 }
 
 fn microfacets(scene: &Scene) -> Decision {
-    let rough = |surface: &Surface| match surface {
-        Surface::Conductor { alpha, .. } => *alpha > 0.0,
-        Surface::Dielectric(interface) => interface.is_rough(),
-        Surface::Black | Surface::Diffuse { .. } => false,
-    };
-    match objects_with(scene, rough) {
+    match objects_with(scene, Surface::is_rough) {
         names if names.is_empty() => decision("microfacets", false, "no rough conductor or dielectric"),
         names => decision("microfacets", true, format!("rough: {}", listed(&names))),
     }
@@ -234,13 +227,7 @@ fn approximations(scene: &Scene) -> Decision {
 
 fn light_sampling(scene: &Scene) -> Decision {
     let shining = scene.lights.emitters().iter().filter(|emitter| emitter.power > 0.0).count();
-    let lit = |surface: &Surface| match surface {
-        Surface::Diffuse { .. } => true,
-        Surface::Conductor { alpha, .. } => *alpha > 0.0,
-        Surface::Dielectric(interface) => interface.is_rough(),
-        Surface::Black => false,
-    };
-    match (shining, objects_with(scene, lit).is_empty()) {
+    match (shining, objects_with(scene, Surface::scatters).is_empty()) {
         (0, _) => decision("light sampling", false, "nothing shines that could be aimed at"),
         (_, true) => {
             decision("light sampling", false, "every surface is smooth: its one direction finds the light or not")

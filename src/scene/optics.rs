@@ -1,6 +1,6 @@
 //! What an interface needs to know of a material, without a scene around it: for tables and curves.
 
-use super::describe::{IndexSource, Material};
+use super::materials::{IndexSource, Kind, Material};
 use super::{SceneError, Text};
 use crate::spectrum::{Ior, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Library, SpectrumError};
 use std::path::Path;
@@ -48,9 +48,9 @@ pub fn optics(name: &str, data: Option<&str>, library: &Library) -> Result<Optic
     };
     let text = Text::new(found.origin, found.text);
     let material: Material = text.parse()?;
-    let (class, source) = match (&material.conductor, &material.dielectric) {
-        (Some(conductor), None) => (Class::Conductor, &conductor.get_ref().ior),
-        (None, Some(dielectric)) => (Class::Dielectric, &dielectric.get_ref().ior),
+    let (class, source) = match material.kind() {
+        Ok(Kind::Conductor(conductor)) => (Class::Conductor, &conductor.ior),
+        Ok(Kind::Dielectric(dielectric)) => (Class::Dielectric, &dielectric.ior),
         _ => {
             let message = format!("`{name}` has no index of refraction: it is neither a conductor nor a dielectric");
             return Err(SceneError::new(message));

@@ -98,15 +98,9 @@ fn reaches(point: &Point, bounds: &Bounds) -> bool {
 
 fn points_in_mirrors(scene: &Scene) -> Option<String> {
     let points = scene.lights.emitters().iter().any(|emitter| matches!(emitter.source, Source::Point(_)));
-    let smooth = |surface: &Surface| match surface {
-        Surface::Conductor { alpha, .. } => *alpha == 0.0,
-        Surface::Dielectric(interface) => !interface.is_rough(),
-        Surface::Black | Surface::Diffuse { .. } => false,
-    };
-    let others = |surface: &Surface| !smooth(surface) && *surface != Surface::Black;
-    let smooth = names(scene, |index| smooth(surface(scene, index)));
+    let smooth = names(scene, |index| surface(scene, index).is_smooth());
     // Where everything is smooth, point lights light nothing, which is told already.
-    (points && !smooth.is_empty() && scene.surfaces.iter().any(others)).then(|| {
+    (points && !smooth.is_empty() && scene.surfaces.iter().any(Surface::scatters)).then(|| {
         format!(
             "{} {} smooth and {} no point light: a small sphere that shines is seen everywhere",
             listed(&smooth),
@@ -119,10 +113,8 @@ fn points_in_mirrors(scene: &Scene) -> Option<String> {
 fn nothing_to_see(scene: &Scene) -> Option<String> {
     let lamps = scene.lights.emitters().iter().any(|emitter| emitter.power > 0.0);
     let even = matches!(scene.lights.environment, Environment::Constant(_)) && !lamps;
-    let clear = |index: usize| match surface(scene, index) {
-        Surface::Dielectric(interface) => scene.medium(interface.medium).absorption.is_none(),
-        _ => false,
-    };
+    let colourless = |interface: &Interface| scene.medium(interface.medium).absorption.is_none();
+    let clear = |index: usize| surface(scene, index).interface().is_some_and(colourless);
     let all = !scene.objects.is_empty() && (0..scene.objects.len()).all(clear);
     (even && all).then(|| {
         "everything here is clear, and the same light comes from all around: nothing can be seen of it, as in nature. Lamps, a gradient or a picture all around, or something dark show a stone".to_owned()
@@ -137,7 +129,7 @@ fn thin_films(scene: &Scene, measures: &Measures) -> Option<String> {
     let thin = |index: usize| {
         let shape = &scene.world.shapes()[index];
         let thickness = thickness(shape);
-        matches!(surface(scene, index), Surface::Dielectric(_)) && closed(shape) && thickness > 0.0 && thickness < THIN
+        surface(scene, index).is_clear() && closed(shape) && thickness > 0.0 && thickness < THIN
     };
     let films = names(scene, thin);
     (!films.is_empty()).then(|| {

@@ -32,7 +32,7 @@ impl Interface {
     /// `None` if the surface is none.
     fn of(scene: &Scene, surface: usize) -> Option<Self> {
         match *scene.surfaces.get(surface)? {
-            Surface::Conductor { n, k, model, .. } => {
+            Surface::Conductor(Metal { n, k, model, .. }) => {
                 let specimen = scene.metal([n, k], MediumId::OUTSIDE);
                 Some(Self::new(scene, fitted(scene, model, specimen)?, specimen, true))
             }
@@ -46,7 +46,7 @@ impl Interface {
                     [MediumId::OUTSIDE, interface.medium].map(|id| scene.spectra.get(scene.medium(id).n));
                 Some(Self::new(scene, model, Specimen::clear(outside, inside), false))
             }
-            Surface::Black | Surface::Diffuse { .. } => None,
+            Surface::Black | Surface::Diffuse(_) => None,
         }
     }
 

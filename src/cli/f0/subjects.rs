@@ -2,7 +2,7 @@
 
 use super::F0Args;
 use crate::report::f0::{Families, Instrument, Subject, Table};
-use crate::scene::describe::Material;
+use crate::scene::materials::Material;
 use crate::scene::{Class, Optics, SceneError, Text, optics};
 use crate::spectrum::Library;
 use rayon::prelude::*;
@@ -61,7 +61,7 @@ pub fn of_library(library: &Library) -> Result<Vec<Optics>, SceneError> {
 fn has_index(name: &str, library: &Library) -> Result<bool, SceneError> {
     let found = library.material(name)?;
     let material: Material = Text::new(found.origin, found.text).parse()?;
-    Ok(material.conductor.is_some() || material.dielectric.is_some())
+    Ok(material.index().is_some())
 }
 
 /// Which data sets belong to which material of the library.

@@ -81,7 +81,7 @@ impl Resolver<'_> {
     }
 
     fn is_clear(&self, surface: u32) -> bool {
-        matches!(self.surfaces[surface as usize], Surface::Dielectric(_))
+        self.surfaces[surface as usize].is_clear()
     }
 
     /// A body in place of its pieces.

@@ -4,13 +4,16 @@ use super::Resolver;
 use super::trade::traded;
 use crate::fresnel::FresnelModel;
 use crate::fresnel::absorbing::LEAST_K;
-use crate::scene::describe::{self, AbsorptionSource, IndexSource, ReflectanceSource, RoughnessSource};
+use crate::scene::materials::{
+    AbsorptionSource, Conductor, Dielectric, Diffuse, IndexSource, Kind, KindError, Material, ReflectanceSource,
+    RoughnessSource,
+};
 use crate::scene::numbers::short;
-use crate::scene::{Interface, Medium, MediumId, Pattern, RgbColors, SceneError, Surface, Text};
+use crate::scene::{Interface, Matt, Medium, MediumId, Metal, Pattern, RgbColors, SceneError, Surface, Text};
 use crate::spectrum::visible_nm;
 use crate::spectrum::{
-    Adaptation, Colorimeter, HELIUM_D_NM, Ior, Library, RgbSpace, Spectrum, SpectrumError, Upsampler, nearest,
-    srgb_primaries,
+    Adaptation, Colorimeter, HELIUM_D_NM, Ior, Library, Quantity, RgbSpace, Spectrum, SpectrumError, Upsampler,
+    nearest, srgb_primaries,
 };
 use std::fmt::Display;
 use std::ops::{Range, RangeInclusive};
@@ -24,7 +27,7 @@ struct Described {
     /// What the scene calls it, which is another name if the command line replaced it.
     asked: String,
     text: Text,
-    material: Arc<describe::Material>,
+    material: Arc<Material>,
     span: Range<usize>,
     /// Where the scene asks for it.
     asked_at: Range<usize>,
@@ -58,7 +61,7 @@ impl Resolver<'_> {
     /// The medium around everything, by the name of a dielectric.
     pub fn outside(&mut self, name: &Spanned<String>) -> Result<(), SceneError> {
         let described = self.described(name)?;
-        let Some(dielectric) = &described.material.dielectric else {
+        let Ok(Kind::Dielectric(dielectric)) = described.material.kind() else {
             let message =
                 format!("`{}` is no dielectric: what surrounds a scene must let light through", name.get_ref());
             return Err(self.text.error(&name.span(), message));
@@ -120,13 +123,9 @@ impl Resolver<'_> {
 
     /// A material's name where that of a data set is asked for is told with the data set that the material has.
     fn unknown_index(&self, name: &str, error: SpectrumError) -> SceneError {
-        let own = |material: &describe::Material| {
-            let conductor = material.conductor.as_ref().map(|kind| &kind.get_ref().ior);
-            let source = conductor.or(material.dielectric.as_ref().map(|kind| &kind.get_ref().ior))?;
-            match source.get_ref() {
-                IndexSource::Name(name) => Some(name.clone()),
-                IndexSource::Constant { .. } | IndexSource::Own(_) => None,
-            }
+        let own = |material: &Material| match material.data()? {
+            (Quantity::Ior, name) => Some(name.to_owned()),
+            _ => None,
         };
         let by_library = || {
             let found = self.library.material(name).ok()?;
@@ -147,23 +146,23 @@ impl Resolver<'_> {
 
     fn surface(&mut self, described: &Described, pattern: &mut Pattern) -> Result<Surface, SceneError> {
         let Described { material, text, span, .. } = described;
-        match (&material.conductor, &material.dielectric, &material.diffuse) {
-            (Some(conductor), None, None) => self.conductor(described, conductor.get_ref(), pattern),
-            (None, Some(dielectric), None) => {
+        match material.kind() {
+            Ok(Kind::Conductor(conductor)) => self.conductor(described, conductor, pattern),
+            Ok(Kind::Dielectric(dielectric)) => {
                 let medium = self.medium(described, dielectric)?;
                 let medium = self.add_medium(medium, described)?;
-                let dielectric = dielectric.get_ref();
                 let alpha = self.roughness(text, &dielectric.roughness, &dielectric.perceptual_roughness, pattern)?;
                 Ok(Surface::Dielectric(Interface { medium, alpha, model: self.model(dielectric.fresnel) }))
             }
-            (None, None, Some(diffuse)) => {
+            Ok(Kind::Diffuse(diffuse)) => {
                 self.refuse_index(&described.asked, "diffuse")?;
-                self.diffuse(described, diffuse.get_ref(), pattern)
+                self.diffuse(described, diffuse, pattern)
             }
-            (None, None, None) => Err(text
-                .error(span, format!("material `{}` is of no kind", described.name))
-                .help("give it one of [conductor], [dielectric], [diffuse]")),
-            _ => Err(text.error(span, format!("material `{}` is of more than one kind", described.name))),
+            Err(fault) => {
+                let error = text.error(span, format!("material `{}` is {fault}", described.name));
+                let kinds = "give it one of [conductor], [dielectric], [diffuse]";
+                Err(if fault == KindError::None { error.help(kinds) } else { error })
+            }
         }
     }
 
@@ -219,19 +218,19 @@ impl Resolver<'_> {
     fn conductor(
         &mut self,
         described: &Described,
-        conductor: &describe::Conductor,
+        conductor: &Conductor,
         pattern: &mut Pattern,
     ) -> Result<Surface, SceneError> {
         let ior = self.ior(described, &conductor.ior)?;
         self.warn_of_odd_metal(described, conductor.ior.get_ref(), &ior);
         let (text, words) = (&described.text, [&conductor.roughness, &conductor.perceptual_roughness]);
         let alpha = self.roughness(text, words[0], words[1], pattern)?;
-        Ok(Surface::Conductor {
+        Ok(Surface::Conductor(Metal {
             n: self.spectra.add(ior.n.clone()),
             k: self.spectra.add(ior.k.clone()),
             alpha,
             model: self.metal_model(described, &conductor.fresnel)?,
-        })
+        }))
     }
 
     /// Tells of numbers that are possible and no metal's. Data sets of the library are what they are.
@@ -283,19 +282,15 @@ impl Resolver<'_> {
         }
     }
 
-    fn medium(
-        &mut self,
-        described: &Described,
-        dielectric: &Spanned<describe::Dielectric>,
-    ) -> Result<Medium, SceneError> {
-        let source = &dielectric.get_ref().ior;
+    fn medium(&mut self, described: &Described, dielectric: &Dielectric) -> Result<Medium, SceneError> {
+        let source = &dielectric.ior;
         let ior = self.ior(described, source)?;
-        let absorption = match &dielectric.get_ref().absorption {
+        let absorption = match &dielectric.absorption {
             Some(absorption) => self.absorption(described, absorption)?,
             None => visible_nm().any(|nm| ior.k.at(nm) > 0.0).then(|| ior.k.absorption_from_k()),
         };
         let k = match &absorption {
-            Some(per_metre) if dielectric.get_ref().absorption.is_some() => per_metre.k_from_absorption(),
+            Some(per_metre) if dielectric.absorption.is_some() => per_metre.k_from_absorption(),
             Some(_) => ior.k.clone(),
             None => Spectrum::Constant(0.0),
         };
@@ -361,7 +356,7 @@ impl Resolver<'_> {
     fn diffuse(
         &mut self,
         described: &Described,
-        diffuse: &describe::Diffuse,
+        diffuse: &Diffuse,
         pattern: &mut Pattern,
     ) -> Result<Surface, SceneError> {
         let (text, source) = (&described.text, &diffuse.reflectance);
@@ -386,7 +381,7 @@ impl Resolver<'_> {
                 Spectrum::Constant(0.0)
             }
         };
-        Ok(Surface::Diffuse { reflectance: self.spectra.add(spectrum) })
+        Ok(Surface::Diffuse(Matt { reflectance: self.spectra.add(spectrum) }))
     }
 
     /// GGX α from either of the two words for it; of a picture, the largest.

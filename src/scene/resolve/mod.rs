@@ -26,6 +26,7 @@ pub(super) use emission::BRIGHTEST;
 pub use settings::Overrides;
 
 use super::describe::{self, SceneFile};
+use super::materials::Material;
 use super::oversights::{self, Measures};
 use super::{DataSet, Medium, Pattern, Scene, SceneError, Surface, Text};
 use crate::fresnel::FresnelModel;
@@ -90,7 +91,7 @@ struct Resolver<'a> {
     meters_per_unit: Option<f64>,
     fresnel: Option<FresnelModel>,
     without_dispersion: bool,
-    own_materials: BTreeMap<String, (Arc<describe::Material>, Range<usize>)>,
+    own_materials: BTreeMap<String, (Arc<Material>, Range<usize>)>,
     substitutes: Substitutes,
     used_materials: BTreeSet<String>,
     /// The material that is around everything.

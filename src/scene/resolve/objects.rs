@@ -148,7 +148,7 @@ impl Resolver<'_> {
             None => self.surface_of(described, material, &name)?,
         };
         let material = material.or(by_file.as_ref());
-        if let Surface::Dielectric(_) = self.surfaces[surface as usize] {
+        if self.surfaces[surface as usize].is_clear() {
             self.check_dielectric(object, &shape, &name)?;
         }
         self.check_coordinates(object, surface, &shape, &name)?;

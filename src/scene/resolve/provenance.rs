@@ -50,13 +50,7 @@ impl Resolver<'_> {
 
     /// Lights of which nothing arrives.
     pub fn warn_of_lost_light(&mut self, points: bool, far_lights: bool) {
-        let scatters = |surface: &Surface| match surface {
-            Surface::Diffuse { .. } => true,
-            Surface::Conductor { alpha, .. } => *alpha > 0.0,
-            Surface::Dielectric(interface) => interface.is_rough(),
-            Surface::Black => false,
-        };
-        if points && !self.surfaces.iter().any(scatters) {
+        if points && !self.surfaces.iter().any(Surface::scatters) {
             let warning =
                 "point lights light nothing here: every surface is smooth, and smooth ones do not show a point";
             self.warnings.push(warning.into());

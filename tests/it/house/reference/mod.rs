@@ -1,4 +1,4 @@
-//! `docs/reference.md` is written from `src/scene/describe.rs`, `pictures.rs` and `own_index.rs`, so that it cannot go stale: run with `WRITE_REFERENCE=1` after
+//! `docs/reference.md` is written from `src/scene/describe.rs`, `materials`, `pictures.rs` and `own_index.rs`, so that it cannot go stale: run with `WRITE_REFERENCE=1` after
 //! a change there. Its examples are scenes that resolve.
 
 mod parse;
@@ -9,9 +9,23 @@ use std::fmt::Write;
 
 const SOURCE: &str = concat!(
     include_str!("../../../../src/scene/describe.rs"),
-    "\n",
+    "
+",
+    include_str!("../../../../src/scene/materials/mod.rs"),
+    "
+",
+    include_str!("../../../../src/scene/materials/conductor.rs"),
+    "
+",
+    include_str!("../../../../src/scene/materials/dielectric.rs"),
+    "
+",
+    include_str!("../../../../src/scene/materials/diffuse.rs"),
+    "
+",
     include_str!("../../../../src/scene/pictures.rs"),
-    "\n",
+    "
+",
     include_str!("../../../../src/scene/own_index.rs")
 );
 const PATH: &str = "docs/reference.md";

@@ -106,12 +106,14 @@ pub fn items(source: &str) -> Vec<Item> {
     let mut items = Vec::new();
     let mut lines = source.lines().peekable();
     let mut doc = String::new();
-    let mut kebab = false;
+    let (mut kebab, mut is_read) = (false, false);
     while let Some(line) = lines.next() {
         if let Some(words) = line.strip_prefix("///") {
             join(&mut doc, words);
         } else if line.starts_with("#[serde") {
             kebab |= line.contains("kebab-case");
+        } else if line.starts_with("#[derive") {
+            is_read |= line.contains("Deserialize");
         } else if let Some(rest) = line.strip_prefix("pub struct ").or(line.strip_prefix("pub enum ")) {
             let body: Vec<&str> =
                 if rest.ends_with('{') { lines.by_ref().take_while(|line| *line != "}").collect() } else { vec![] };
@@ -121,11 +123,15 @@ pub fn items(source: &str) -> Vec<Item> {
             } else {
                 Kind::Choices(entries(&body, kebab))
             };
-            items.push(Item { name, doc: std::mem::take(&mut doc), kind });
-            kebab = false;
+            // What is only made of files is described elsewhere.
+            let doc = std::mem::take(&mut doc);
+            if is_read {
+                items.push(Item { name, doc, kind });
+            }
+            (kebab, is_read) = (false, false);
         } else if !line.starts_with("#[") {
             doc.clear();
-            kebab = false;
+            (kebab, is_read) = (false, false);
         }
     }
     items
