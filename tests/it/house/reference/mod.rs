@@ -9,23 +9,17 @@ use std::fmt::Write;
 
 const SOURCE: &str = concat!(
     include_str!("../../../../src/scene/describe.rs"),
-    "
-",
+    "\n",
     include_str!("../../../../src/scene/materials/mod.rs"),
-    "
-",
+    "\n",
     include_str!("../../../../src/scene/materials/conductor.rs"),
-    "
-",
+    "\n",
     include_str!("../../../../src/scene/materials/dielectric.rs"),
-    "
-",
+    "\n",
     include_str!("../../../../src/scene/materials/diffuse.rs"),
-    "
-",
+    "\n",
     include_str!("../../../../src/scene/pictures.rs"),
-    "
-",
+    "\n",
     include_str!("../../../../src/scene/own_index.rs")
 );
 const PATH: &str = "docs/reference.md";
