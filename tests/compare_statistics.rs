@@ -5,9 +5,10 @@
 mod random;
 
 use random::Random;
-use spectrel::report::bound::Unseen;
+use spectrel::film::Unseen;
+use spectrel::film::View;
 use spectrel::report::difference::{Image, compare};
-use spectrel::report::{Difference, Verdict, View};
+use spectrel::report::{Difference, Verdict};
 use spectrel::spectrum::RgbSpace;
 
 const REPLICATES: usize = 8;

@@ -19,6 +19,13 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("scene", &["spectrum", "fresnel", "bsdf", "geometry", "texture", "light", "camera"]),
     ("film", &["spectrum"]),
     ("render", &["spectrum", "fresnel", "bsdf", "geometry", "sampler", "texture", "light", "camera", "scene", "film"]),
+    (
+        "adaptive",
+        &[
+            "spectrum", "fresnel", "bsdf", "geometry", "sampler", "texture", "light", "camera", "scene", "film",
+            "render",
+        ],
+    ),
     ("image", &["film", "spectrum"]),
     ("report", &["image", "film", "spectrum", "fresnel"]),
     ("cli", &["*"]),

@@ -4,12 +4,12 @@ mod common;
 
 use common::command::{folder, refused, run};
 use common::{film, scene};
+use spectrel::adaptive::allocation::Aim;
 use spectrel::cli::effort::{Reached, Target};
 use spectrel::cli::promise::Goal;
 use spectrel::cli::work::Work;
 use spectrel::film::{Develop, Exposure, Film, Gamut, Layers, Replicates, Wanted, Window};
 use spectrel::render::{Kernel, Recorder, render_layers, render_planned};
-use spectrel::report::plan::Aim;
 use spectrel::scene::{Needs, Overrides, Scene};
 use spectrel::spectrum::{Matrix3, RgbSpace, ciede2000, lab_from_xyz};
 use std::sync::LazyLock;

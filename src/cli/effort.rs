@@ -1,10 +1,11 @@
 //! How long a render goes on, and where: for so many samples, for so long, or until its error is small enough.
 
+use crate::adaptive::allocation::Aim;
+use crate::adaptive::bound::Bound;
+use crate::adaptive::noise::Noise;
 use crate::film::REPLICATES;
-use crate::report::View;
-use crate::report::bound::{Bound, Unseen};
-use crate::report::noise::Noise;
-use crate::report::plan::Aim;
+use crate::film::Unseen;
+use crate::film::View;
 use crate::scene::SceneError;
 use clap::Args;
 use std::fmt;

@@ -2,14 +2,14 @@
 
 use super::effort::EffortArgs;
 use super::memory;
+use crate::adaptive::allocation::Aim;
+use crate::adaptive::noise::Noise;
+use crate::adaptive::pilot::Pilot;
+use crate::film::View;
 use crate::film::{Develop, Developed, FilmError, Layers, REPLICATES, Replicates, Wanted, Window};
 use crate::image::channels::FAR;
 use crate::image::{Channel, ExrSpace, Extra, Format, Metadata, spectral};
 use crate::render::{FirstHit, Guides, Kernel, Recorder, first_hits};
-use crate::report::View;
-use crate::report::noise::Noise;
-use crate::report::parts::Parts;
-use crate::report::plan::Aim;
 use crate::scene::{Needs, Scene, SceneError};
 use crate::spectrum::{Bins, Matrix3, RgbSpace};
 use clap::{Args, ValueEnum};
@@ -112,7 +112,7 @@ impl Plan {
         }
         let channels = 3 * self.aovs.len() + self.wanted().bands;
         let a_pixel = self.wanted().bytes_per_pixel();
-        let parts = if self.aim.is_some() && !self.compares() { Parts::BYTES } else { 0 };
+        let parts = if self.aim.is_some() && !self.compares() { Pilot::BYTES } else { 0 };
         // One half is kept as it was while it judges the other one.
         let kept = if self.judged { a_pixel.div_ceil(2) } else { 0 };
         memory::check(window, a_pixel + parts + kept, channels)?;

@@ -14,11 +14,12 @@
 use super::effort::{Measure, Reached, Target};
 use super::show;
 use super::work::{Work, counts, viewed, width};
+use crate::adaptive::allocation::{Aim, Shares};
+use crate::adaptive::bound::Bound;
+use crate::adaptive::noise::{Noise, half};
+use crate::film::Unseen;
+use crate::film::View;
 use crate::film::{Develop, FilmError, Layers, REPLICATES};
-use crate::report::View;
-use crate::report::bound::{Bound, Unseen};
-use crate::report::noise::{Noise, half};
-use crate::report::plan::{Aim, Shares};
 use crate::scene::Chance;
 use std::time::{Duration, Instant};
 

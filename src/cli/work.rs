@@ -1,11 +1,11 @@
 //! A render on its way: how many samples it goes on for, and which pixels get them.
 
+use crate::adaptive::allocation::{Aim, LEAST, Shares};
+use crate::adaptive::noise::Noise;
+use crate::adaptive::pilot::Pilot;
+use crate::film::View;
 use crate::film::{Develop, FilmError, Layers, REPLICATES};
 use crate::render::{PASS, Progress, Recorder, render_layers, render_planned};
-use crate::report::View;
-use crate::report::noise::Noise;
-use crate::report::parts::Parts;
-use crate::report::plan::{Aim, LEAST, Shares};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -53,7 +53,7 @@ impl Work<'_> {
     pub fn shared(&self, layers: &mut Layers, samples: u64, aim: Aim, develop: &Develop) -> Result<(), FilmError> {
         let step = step(layers);
         let first = ((LEAST * samples as f64 / step as f64).ceil() as u64 * step).min(samples);
-        let parts = self.in_parts(layers, (first / Parts::ENOUGH).max(1), |next| next.end <= first);
+        let parts = self.in_parts(layers, (first / Pilot::ENOUGH).max(1), |next| next.end <= first);
         if self.cancelled() {
             return Ok(());
         }
@@ -115,8 +115,8 @@ impl Work<'_> {
     }
 
     /// The first samples of every pixel, part by part as long as a next one is wanted.
-    fn in_parts(&self, layers: &mut Layers, size: u64, is_wanted: impl Fn(&Range<u64>) -> bool) -> Parts {
-        let mut parts = Parts::of(size);
+    fn in_parts(&self, layers: &mut Layers, size: u64, is_wanted: impl Fn(&Range<u64>) -> bool) -> Pilot {
+        let mut parts = Pilot::of(size);
         loop {
             let next = parts.next_samples();
             if self.cancelled() || !is_wanted(&next) {
@@ -129,12 +129,12 @@ impl Work<'_> {
     }
 
     /// How noisy each pixel is by itself.
-    fn noise(&self, layers: &Layers, parts: Parts, develop: &Develop) -> Result<Noise, FilmError> {
+    fn noise(&self, layers: &Layers, parts: Pilot, develop: &Develop) -> Result<Noise, FilmError> {
         let (width, view) = viewed(layers, develop)?;
         Ok(match layers.replicates() {
             [] => {
                 debug_assert!(self.recorder.draws_in_halves(), "pixels would decide for themselves");
-                Noise::of_parts(&parts, width, &view)
+                Noise::of_pilot(&parts, width, &view)
             }
             replicates => Noise::of_each(replicates, width, &view),
         })

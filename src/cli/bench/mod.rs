@@ -12,13 +12,13 @@ use super::folder::{Folder, Kind};
 use super::render::lanes;
 use super::threads::ThreadArgs;
 use super::{LibraryArgs, job, memory, read_text, show};
+use crate::adaptive::allocation::Aim;
 use crate::film::Film;
+use crate::film::View;
 use crate::fresnel::FresnelModel;
-use crate::report::View;
 use crate::report::bench::{
     Bench, HTML_FILE, JSON_FILE, Measured, SVG_FILE, Scale, Scene as Found, Standard, figure, measure, page, picture,
 };
-use crate::report::plan::Aim;
 use crate::scene::describe::SamplerName;
 use crate::scene::{Overrides, Scene, SceneError, Text};
 use clap::Args;

@@ -2,9 +2,9 @@
 
 use super::super::effort::{self, Sharing};
 use super::BenchArgs;
+use crate::adaptive::allocation::Aim;
 use crate::fresnel::{FresnelModel, RgbModel, SpectralModel};
 use crate::report::bench::{self, Change};
-use crate::report::plan::Aim;
 use crate::scene::describe::SamplerName;
 use crate::scene::{Overrides, Scene, SceneError, Text, resolve};
 use crate::spectrum::{LANES, Library};

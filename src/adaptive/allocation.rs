@@ -7,11 +7,11 @@
 //!
 //! A pixel whose own first samples decided how many it gets would be biased: where they happen to be alike, it gets few, and what is rare in
 //! it is missed for good. Here σₚ is that of the pixels around it that lie in the other half of the picture, the other fields of a
-//! chessboard ([`half`]), and of the first samples alone ([`super::parts`]). Halves draw independent numbers
+//! chessboard ([`half`]), and of the first samples alone ([`super::pilot`]). Halves draw independent numbers
 //! (`render::Recorder::in_halves`; replicates do anyway), and each is shared out by itself, so that the number of a pixel's samples depends
 //! on nothing that its half has drawn: its mean is what it is without any plan (`tests/target_error.rs`). Only the exposure by which ΔE is
 //! seen may be that of the whole picture, and where time is the limit, how many samples there are in all.
-//! When to go on is decided for either half by the other one, for the same reason (`cli::promise`).
+//! When to go on is decided for either half by the other one, for the same reason (`super::promise`).
 
 use super::noise::{Noise, half};
 use std::ops::Range;
