@@ -1,18 +1,17 @@
 //! One render of one scene: exposed, developed, written.
 
-use super::effort::{Effort, Reached};
+use super::effort::so_far;
 use super::interrupt::Interrupt;
 use super::layers::{Picture, Plan};
 use super::preview::Preview;
 use super::progress::Shown;
-use super::promise::Goal;
 use super::render::RenderArgs;
 use super::show;
-use super::work::Work;
+use crate::adaptive::{Effort, Look, Reached, RenderLoop, Session};
 use crate::film::{Develop, Developed, Exposure, Film, Gamut, Layers, Window, fnv1a_64};
 use crate::fresnel::FresnelModel;
 use crate::image::{self, Encoded, Extra, Metadata};
-use crate::render::{Kernel, PASS, render_layers};
+use crate::render::Kernel;
 use crate::scene::describe::{ExposureValue, GamutName};
 use crate::scene::{Decision, Needs, Scene, SceneError};
 use crate::spectrum::RgbSpace;
@@ -65,31 +64,27 @@ impl Job<'_> {
         let needs = Needs::of(scene);
         let kernel = Kernel::new(scene, &needs);
         let recorder = self.plan.recorder(&kernel, scene, &needs);
-        let work = Work { recorder: &recorder, progress: &progress, cancel: interrupt.flag(), quiet };
         let develop = development(scene);
-        let expose = |layers: &mut Layers| match *self.effort {
-            Effort::Samples { samples, aim: None } => {
-                work.evenly(layers, samples);
-                Ok(())
-            }
-            Effort::Samples { samples, aim: Some(aim) } => work.shared(layers, samples, aim, &develop),
-            Effort::Time { time, most, aim: None } => {
-                work.evenly_for(layers, 0, time, most);
-                Ok(())
-            }
-            Effort::Time { time, most, aim: Some(aim) } => work.shared_for(layers, (time, most), aim, &develop),
-            Effort::Error { ref targets, time, most } => {
-                let goal = Goal { targets, time, most, chance: &needs.chance };
-                work.for_error(layers, &goal, &develop).map(|reached| tell(&reached, quiet))
-            }
-        };
         match preview {
-            None => expose(&mut layers).map_err(SceneError::new)?,
-            Some(preview) => {
-                let mut render = |layers: &mut Layers, samples| {
-                    render_layers(&recorder, layers, samples, &progress, interrupt.flag());
+            None => {
+                let look = |look: &Look| {
+                    if !quiet {
+                        show::note(so_far(look));
+                    }
                 };
-                self.expose_and_show(&mut layers, preview, &mut render, interrupt)?
+                let session = Session {
+                    develop: &develop,
+                    chance: &needs.chance,
+                    progress: &progress,
+                    look: &look,
+                    cancel: interrupt.flag(),
+                };
+                let reached = self.effort.render(recorder, &mut layers, &session).map_err(SceneError::new)?;
+                reached.iter().for_each(|reached| tell(reached, quiet));
+            }
+            Some(preview) => {
+                let render = RenderLoop::new(&recorder, &progress, interrupt.flag());
+                self.expose_and_show(&mut layers, preview, &render)?;
             }
         }
         progress.finish();
@@ -105,27 +100,19 @@ impl Job<'_> {
         Ok(layers)
     }
 
-    /// The same in passes, with a look at what there is in between.
+    /// Renders with a look at what there is in between.
     fn expose_and_show(
         &self,
         layers: &mut Layers,
         preview: &mut Preview,
-        render: &mut dyn FnMut(&mut Layers, std::ops::Range<u64>),
-        interrupt: &Interrupt,
+        render: &RenderLoop,
     ) -> Result<(), SceneError> {
-        let samples = u64::from(self.scene.settings.samples);
-        for first in (0..samples).step_by(PASS as usize) {
-            let end = (first + u64::from(PASS)).min(samples);
-            render(layers, first..end);
-            let last = end == samples || interrupt.stopped();
-            if last || preview.is_due() {
+        render.evenly_seen(layers, u64::from(self.scene.settings.samples), |layers, ends| {
+            if ends || preview.is_due() {
                 preview.show(&self.develop(layers)?);
             }
-            if last {
-                break;
-            }
-        }
-        Ok(())
+            Ok(())
+        })
     }
 
     fn develop(&self, layers: &Layers) -> Result<Developed, SceneError> {
@@ -184,7 +171,7 @@ fn tell(reached: &Reached, quiet: bool) {
     } else if !quiet {
         show::note(reached);
     }
-    reached.few().filter(|_| !quiet).iter().for_each(show::note);
+    reached.held_by().filter(|_| !quiet).iter().for_each(show::note);
 }
 
 /// What the render did without, and why.

@@ -2,9 +2,7 @@
 
 use super::effort::EffortArgs;
 use super::memory;
-use crate::adaptive::allocation::Aim;
-use crate::adaptive::noise::Noise;
-use crate::adaptive::pilot::Pilot;
+use crate::adaptive::{Aim, Noise, Pilot};
 use crate::film::View;
 use crate::film::{Develop, Developed, FilmError, Layers, REPLICATES, Replicates, Wanted, Window};
 use crate::image::channels::FAR;
@@ -124,8 +122,7 @@ impl Plan {
             true => Guides::behind_mirrors(scene, needs, RgbSpace::Srgb),
             false => Guides::first_hit(scene, needs, RgbSpace::Srgb),
         });
-        let recorder = Recorder::new(kernel, guides, self.bins.as_ref());
-        if self.aim.is_some() { recorder.in_halves() } else { recorder }
+        Recorder::new(kernel, guides, self.bins.as_ref())
     }
 
     /// What goes into a file beside the picture.

@@ -2,7 +2,7 @@
 
 mod bench;
 mod compare;
-pub mod effort;
+mod effort;
 mod f0;
 mod folder;
 mod fresnel;
@@ -14,7 +14,6 @@ mod list;
 mod memory;
 mod preview;
 mod progress;
-pub mod promise;
 mod render;
 mod settings;
 mod show;
@@ -22,7 +21,6 @@ mod subjects;
 mod tables;
 mod threads;
 mod watch;
-pub mod work;
 
 use crate::scene::{SceneError, Text};
 use crate::spectrum::{Library, nearest};

@@ -12,7 +12,7 @@ use super::folder::{Folder, Kind};
 use super::render::lanes;
 use super::threads::ThreadArgs;
 use super::{LibraryArgs, job, memory, read_text, show};
-use crate::adaptive::allocation::Aim;
+use crate::adaptive::Aim;
 use crate::film::Film;
 use crate::film::View;
 use crate::fresnel::FresnelModel;

@@ -4,11 +4,9 @@
 //! it and a reference of [`LEAST`] × as many samples are expected to end in time, by what the renders before it took. Ways that change
 //! several things are given up, from the last on, until all that are left get to [`GOAL`] counts.
 
-use super::super::effort::LEAST_SHARED;
 use super::super::job::{development, window};
-use super::super::work::Work;
 use super::clock::{Clock, Spent};
-use crate::adaptive::allocation::Aim;
+use crate::adaptive::{Aim, Halves, LEAST_SHARED, RenderLoop, SharedLoop};
 use crate::film::{Layers, Pixel, Wanted, fnv1a_64};
 use crate::render::{Kernel, PASS, Recorder, rays};
 use crate::report::bench::Renders;
@@ -222,13 +220,19 @@ impl<'a> Sweep<'a> {
         let needs = Needs::of(scene);
         let kernel = Kernel::new(scene, &needs);
         let recorder = Recorder::new(&kernel, None, None);
-        let recorder = if aim.is_some() { recorder.in_halves() } else { recorder };
-        let work = Work { recorder: &recorder, progress: &(), cancel: &AtomicBool::new(false), quiet: true };
+        let cancel = AtomicBool::new(false);
         let (setup_seconds, before, clock) = (setup.spent().wall_seconds, rays_traced(), Clock::start());
-        match aim.filter(|_| samples >= LEAST_SHARED) {
-            None => work.evenly(&mut layers, u64::from(samples)),
+        match *aim {
+            None => RenderLoop::new(&recorder, &(), &cancel).evenly(&mut layers, u64::from(samples)),
             Some(aim) => {
-                work.shared(&mut layers, u64::from(samples), aim, &development(scene)).map_err(SceneError::new)?
+                let halves = Halves::of(recorder);
+                let render = SharedLoop::new(&halves, &(), &cancel);
+                match samples < LEAST_SHARED {
+                    true => render.plain().evenly(&mut layers, u64::from(samples)),
+                    false => render
+                        .shared(&mut layers, u64::from(samples), aim, &development(scene))
+                        .map_err(SceneError::new)?,
+                }
             }
         }
         let (spent, rays) = (clock.spent(), rays_traced() - before);

@@ -2,7 +2,7 @@
 
 use super::super::effort::{self, Sharing};
 use super::BenchArgs;
-use crate::adaptive::allocation::Aim;
+use crate::adaptive::Aim;
 use crate::fresnel::{FresnelModel, RgbModel, SpectralModel};
 use crate::report::bench::{self, Change};
 use crate::scene::describe::SamplerName;

@@ -5,8 +5,9 @@
 use super::super::interrupt::Interrupt;
 use super::super::job::window;
 use super::super::progress::Shown;
-use crate::film::{Film, Pixel, fnv1a_64};
-use crate::render::{Kernel, render};
+use crate::adaptive::RenderLoop;
+use crate::film::{Film, Layers, Pixel, Wanted, fnv1a_64};
+use crate::render::{Kernel, Recorder};
 use crate::report::difference::Image;
 use crate::scene::{Needs, Scene, SceneError};
 use std::time::Instant;
@@ -45,7 +46,8 @@ impl Plan {
 
 impl Rendered {
     fn empty(scene: &Scene) -> Result<Self, SceneError> {
-        Ok(Self { film: empty_film(scene)?, replicates: Vec::new(), seconds: 0.0 })
+        let film = Film::new(size(scene), window(scene.settings.crop)).map_err(SceneError::new)?;
+        Ok(Self { film, replicates: Vec::new(), seconds: 0.0 })
     }
 }
 
@@ -62,31 +64,33 @@ pub fn render_all(
         for scene in scenes.iter_mut() {
             scene.settings.seed = seed;
             let started = Instant::now();
-            let film = render_one(scene, plan.samples, progress, interrupt)?;
-            replicate.push((film, started.elapsed().as_secs_f64()));
+            let layers = render_one(scene, plan.samples, progress, interrupt)?;
+            replicate.push((layers, started.elapsed().as_secs_f64()));
             if interrupt.stopped() {
                 return Ok(all);
             }
         }
-        for (rendered, (film, seconds)) in all.iter_mut().zip(replicate) {
-            rendered.film.merge(&film).map_err(SceneError::new)?;
-            rendered.replicates.push(image(&film));
+        for (rendered, (layers, seconds)) in all.iter_mut().zip(replicate) {
+            rendered.film.merge(layers.film()).map_err(SceneError::new)?;
+            rendered.replicates.push(image(layers.film()));
             rendered.seconds += seconds;
         }
     }
     Ok(all)
 }
 
-fn render_one(scene: &Scene, samples: u32, progress: &Shown, interrupt: &Interrupt) -> Result<Film, SceneError> {
-    let mut film = empty_film(scene)?;
+fn render_one(scene: &Scene, samples: u32, progress: &Shown, interrupt: &Interrupt) -> Result<Layers, SceneError> {
+    let mut layers =
+        Layers::new(size(scene), window(scene.settings.crop), Wanted::default()).map_err(SceneError::new)?;
     let needs = Needs::of(scene);
-    render(&Kernel::new(scene, &needs), &mut film, 0..u64::from(samples), progress, interrupt.flag());
-    Ok(film)
+    let kernel = Kernel::new(scene, &needs);
+    let recorder = Recorder::new(&kernel, None, None);
+    RenderLoop::new(&recorder, progress, interrupt.flag()).evenly(&mut layers, u64::from(samples));
+    Ok(layers)
 }
 
-fn empty_film(scene: &Scene) -> Result<Film, SceneError> {
-    let size = [scene.settings.width, scene.settings.height];
-    Film::new(size, window(scene.settings.crop)).map_err(SceneError::new)
+fn size(scene: &Scene) -> [u32; 2] {
+    [scene.settings.width, scene.settings.height]
 }
 
 fn image(film: &Film) -> Image {
