@@ -1,31 +1,28 @@
 //! One render of one scene: exposed, developed, written.
 
-use super::effort::so_far;
-use super::interrupt::Interrupt;
-use super::layers::{Picture, Plan};
+use super::layers::{Picture, Recording};
 use super::preview::Preview;
-use super::progress::Shown;
-use super::render::RenderArgs;
-use super::show;
 use crate::adaptive::{Effort, Look, Reached, RenderLoop, Session};
-use crate::film::{Develop, Developed, Exposure, Film, Gamut, Layers, Window, fnv1a_64};
-use crate::fresnel::FresnelModel;
-use crate::image::{self, Encoded, Extra, Metadata};
+use crate::cli::effort::so_far;
+use crate::cli::interrupt::Interrupt;
+use crate::cli::picture::{development, fingerprint, metadata, samples_each, window};
+use crate::cli::progress::Shown;
+use crate::cli::show;
+use crate::film::{Developed, Film, Layers, Window};
+use crate::image::{self, Encoded, Extra, Options};
 use crate::render::Kernel;
-use crate::scene::describe::{ExposureValue, GamutName};
 use crate::scene::{Decision, Needs, Scene, SceneError};
-use crate::spectrum::RgbSpace;
-use std::ffi::OsStr;
-use std::fs;
 use std::iter::{once, repeat};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 pub struct Job<'a> {
-    pub args: &'a RenderArgs,
-    pub plan: &'a Plan,
+    pub recording: &'a Recording,
     pub scene: &'a Scene,
     pub effort: &'a Effort,
+    pub options: Options,
+    pub quiet: bool,
+    pub verbose: bool,
 }
 
 impl Job<'_> {
@@ -47,23 +44,23 @@ impl Job<'_> {
             std::process::exit(130);
         }
         let developed = self.develop(&layers)?;
-        report(&developed, self.args.quiet());
+        report(&developed, self.quiet);
         self.write(outputs, identity, &layers, &developed)
     }
 
     /// Renders until it is done or interrupted.
     fn expose(&self, interrupt: &Interrupt, preview: Option<&mut Preview>) -> Result<Layers, SceneError> {
-        let (scene, quiet) = (self.scene, self.args.quiet());
+        let (scene, quiet) = (self.scene, self.quiet);
         let window = window(scene.settings.crop);
         let started = Instant::now();
-        let mut layers = self.plan.layers(scene, window)?;
+        let mut layers = self.recording.layers(scene, window)?;
         let progress = match self.effort.samples() {
             Some(samples) => Shown::new(window.pixel_count() * samples, quiet),
             None => Shown::open(quiet),
         };
         let needs = Needs::of(scene);
         let kernel = Kernel::new(scene, &needs);
-        let recorder = self.plan.recorder(&kernel, scene, &needs);
+        let recorder = self.recording.recorder(&kernel, scene, &needs);
         let develop = development(scene);
         match preview {
             None => {
@@ -93,7 +90,7 @@ impl Job<'_> {
         }
         if !quiet && interrupt.pressed() == interrupt.stopped() {
             summary(layers.film(), started);
-            if self.args.verbose() {
+            if self.verbose {
                 left_out(&needs);
             }
         }
@@ -134,7 +131,7 @@ impl Job<'_> {
             if file.beyond_half > 0 {
                 show::warning(format_args!("{} channels are beyond the range of 16-bit floats", file.beyond_half));
             }
-            if !self.args.quiet() {
+            if !self.quiet {
                 show::note(format_args!("wrote {} ({:.0} kB)", path.display(), file.bytes.len() as f64 / 1e3));
             }
         }
@@ -148,15 +145,15 @@ impl Job<'_> {
         layers: &Layers,
         developed: &Developed,
     ) -> Result<Encoded, SceneError> {
-        let (format, options) = (image::Format::of(path).map_err(SceneError::new)?, self.args.options());
+        let (format, options) = (image::Format::of(path).map_err(SceneError::new)?, self.options);
         let metadata = metadata(self.scene, identity, layers.film(), developed);
-        let metadata = self.plan.describe(path, self.scene, &metadata)?;
+        let metadata = self.recording.describe(path, self.scene, &metadata)?;
         let extra = match format {
             image::Format::Png => Extra::default(),
             image::Format::Exr => {
                 let picture =
                     Picture::new(developed, &development(self.scene), options.exr_space).map_err(SceneError::new)?;
-                self.plan.extra(path, self.scene, layers, &picture)
+                self.recording.extra(path, self.scene, layers, &picture)
             }
         };
         image::encode_with(format, developed, &extra, &options, &metadata).map_err(SceneError::new)
@@ -191,16 +188,6 @@ fn summary(film: &Film, started: Instant) {
     show::note(format_args!("{width} × {height} pixels, {each} samples each: {seconds:.1} s, {rate:.2} M samples/s"));
 }
 
-/// Samples of a pixel, of the mean one if they were shared out.
-fn samples_each(film: &Film) -> u64 {
-    let pixels = film.window().pixel_count();
-    (film.samples() + pixels / 2) / pixels
-}
-
-pub fn window([x0, y0, x1, y1]: [u32; 4]) -> Window {
-    Window { x0, y0, width: x1 - x0, height: y1 - y0 }
-}
-
 fn report(developed: &Developed, quiet: bool) {
     if !quiet {
         show::note(format_args!("exposure {:.2} EV: white is {:.4} cd/m²", developed.ev, developed.ev.exp2()));
@@ -209,55 +196,4 @@ fn report(developed: &Developed, quiet: bool) {
         }
     }
     developed.report.warnings().iter().for_each(show::warning);
-}
-
-pub fn development(scene: &Scene) -> Develop {
-    Develop {
-        exposure: match scene.picture.exposure {
-            ExposureValue::Auto => Exposure::Auto,
-            ExposureValue::Ev(ev) => Exposure::Ev(ev),
-        },
-        white: scene.picture.white,
-        space: RgbSpace::Srgb,
-        gamut: match scene.picture.gamut {
-            GamutName::Clip => Gamut::Clip,
-            GamutName::PreserveChroma => Gamut::PreserveChroma,
-        },
-    }
-}
-
-/// What determines the picture.
-pub fn metadata(scene: &Scene, identity: u64, film: &Film, developed: &Developed) -> Metadata {
-    let settings = &scene.settings;
-    let [x0, y0, x1, y1] = settings.crop;
-    let metadata = Metadata::new()
-        .with("version", env!("CARGO_PKG_VERSION"))
-        .with("scene", format!("{identity:016x}"))
-        .with("size", format!("{}x{}", settings.width, settings.height))
-        .with("crop", format!("{x0},{y0},{x1},{y1}"))
-        .with("samples", samples_each(film))
-        .with("seed", settings.seed)
-        .with("lanes", settings.lanes)
-        .with("fresnel", settings.fresnel.map_or("by material", FresnelModel::name))
-        .with("exposure", format!("{} EV", developed.ev))
-        .with("white", &scene.picture.white_balance)
-        .with("observer", &scene.picture.observer.about.name);
-    // Only where something was replaced: other pictures keep the bytes that they had.
-    let metadata = with_pairs(metadata, "ior", &settings.ior);
-    with_pairs(metadata, "vary", &settings.vary)
-}
-
-fn with_pairs(metadata: Metadata, key: &str, pairs: &[(String, String)]) -> Metadata {
-    let pairs: Vec<_> = pairs.iter().map(|(material, by)| format!("{material}={by}")).collect();
-    if pairs.is_empty() { metadata } else { metadata.with(key, pairs.join(", ")) }
-}
-
-/// Identifies what is rendered: the texts of scene and materials, and every spectrum that came of them.
-pub fn fingerprint(scene: &Scene) -> u64 {
-    let texts: String = scene.sources.iter().map(|text| text.content.as_str()).collect();
-    // A file that can no longer be read is told apart by its name.
-    let hash = |path: &PathBuf| (path.file_name().map(OsStr::to_owned), fs::read(path).ok().map(|b| fnv1a_64(&b)));
-    let files: Vec<_> = scene.files.iter().map(hash).collect();
-    let files = if files.is_empty() { String::new() } else { format!("{files:?}") };
-    fnv1a_64(format!("{texts}{:?}{files}", scene.spectra).as_bytes())
 }

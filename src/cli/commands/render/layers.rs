@@ -1,8 +1,8 @@
 //! What `spectrel render` writes beside the picture: AOVs into EXR files, bands of wavelength into spectral ones.
 
-use super::effort::EffortArgs;
-use super::memory;
 use crate::adaptive::{Aim, Noise, Pilot};
+use crate::cli::effort::EffortArgs;
+use crate::cli::memory;
 use crate::film::View;
 use crate::film::{Develop, Developed, FilmError, Layers, REPLICATES, Replicates, Wanted, Window};
 use crate::image::channels::FAR;
@@ -41,7 +41,7 @@ enum Aov {
 
 /// What is to be recorded, and what of it goes into files.
 #[derive(Clone, Debug)]
-pub struct Plan {
+pub struct Recording {
     aovs: Vec<Aov>,
     mirrors: bool,
     bins: Option<Bins>,
@@ -58,7 +58,7 @@ fn is_spectral(path: &Path) -> bool {
 
 impl LayerArgs {
     /// Fails if no file could hold what is asked for.
-    pub fn plan(&self, outputs: &[PathBuf], effort: &EffortArgs) -> Result<Plan, SceneError> {
+    pub fn recording(&self, outputs: &[PathBuf], effort: &EffortArgs) -> Result<Recording, SceneError> {
         let exr = |path: &&PathBuf| matches!(Format::of(path), Ok(Format::Exr));
         let (bands, plain): (Vec<_>, Vec<_>) = outputs.iter().filter(exr).partition(|path| is_spectral(path));
         let option = if self.denoise_inputs { "--denoise-inputs" } else { "--aovs" };
@@ -76,11 +76,11 @@ impl LayerArgs {
         }
         let bins = (!bands.is_empty()).then(|| self.spectral.unwrap_or_default());
         let aovs = if self.aovs.contains(&Aov::All) { Aov::value_variants().to_vec() } else { self.aovs.clone() };
-        Ok(Plan { aovs, mirrors: self.denoise_inputs, bins, judged: effort.judges(), aim: effort.shares_out() })
+        Ok(Recording { aovs, mirrors: self.denoise_inputs, bins, judged: effort.judges(), aim: effort.shares_out() })
     }
 }
 
-impl Plan {
+impl Recording {
     fn has(&self, aov: Aov) -> bool {
         self.aovs.contains(&aov)
             || (self.judged && aov == Aov::Noise)

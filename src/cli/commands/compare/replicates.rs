@@ -2,10 +2,10 @@
 //!
 //! In turn, so that what there is when a render ends early is as much of one variant as of another.
 
-use super::super::interrupt::Interrupt;
-use super::super::job::window;
-use super::super::progress::Shown;
 use crate::adaptive::RenderLoop;
+use crate::cli::interrupt::Interrupt;
+use crate::cli::picture::window;
+use crate::cli::progress::Shown;
 use crate::film::{Film, Layers, Pixel, Wanted, fnv1a_64};
 use crate::render::{Kernel, Recorder};
 use crate::report::difference::Image;
@@ -14,7 +14,7 @@ use std::time::Instant;
 
 /// How much is rendered.
 #[derive(Clone, Debug)]
-pub struct Plan {
+pub struct Replication {
     /// What the seeds of the replicates come of.
     pub seed: u64,
     /// One a replicate.
@@ -32,7 +32,7 @@ pub struct Rendered {
     pub seconds: f64,
 }
 
-impl Plan {
+impl Replication {
     /// `samples` a pixel in as many equal replicates, rounded up.
     pub fn new(seed: u64, samples: u32, replicates: u16) -> Self {
         let seeds = (0..replicates).map(|r| fnv1a_64(format!("replicate {r} of seed {seed}").as_bytes())).collect();
@@ -54,17 +54,17 @@ impl Rendered {
 /// Renders all variants; fewer replicates of each if it is interrupted.
 pub fn render_all(
     scenes: &mut [Scene],
-    plan: &Plan,
+    replication: &Replication,
     progress: &Shown,
     interrupt: &Interrupt,
 ) -> Result<Vec<Rendered>, SceneError> {
     let mut all = scenes.iter().map(Rendered::empty).collect::<Result<Vec<_>, _>>()?;
-    for &seed in &plan.seeds {
+    for &seed in &replication.seeds {
         let mut replicate = Vec::with_capacity(scenes.len());
         for scene in scenes.iter_mut() {
             scene.settings.seed = seed;
             let started = Instant::now();
-            let layers = render_one(scene, plan.samples, progress, interrupt)?;
+            let layers = render_one(scene, replication.samples, progress, interrupt)?;
             replicate.push((layers, started.elapsed().as_secs_f64()));
             if interrupt.stopped() {
                 return Ok(all);

@@ -1,8 +1,8 @@
 //! The ways to render that are tried: the usual one, the usual one with one thing changed, and on demand with several.
 
-use super::super::effort::{self, Sharing};
 use super::BenchArgs;
 use crate::adaptive::Aim;
+use crate::cli::effort::{self, Sharing};
 use crate::fresnel::{FresnelModel, RgbModel, SpectralModel};
 use crate::report::bench::{self, Change};
 use crate::scene::describe::SamplerName;
