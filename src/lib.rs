@@ -8,6 +8,7 @@
 //!     → scene::resolve    names become data, units become SI and nm, every check is made
 //!     → scene::needs      which physics this scene uses, and why
 //!     → render            paths of eight wavelengths, tile by tile
+//!     → adaptive          how many samples, where, and how large the error still is
 //!     → film              exact sums of XYZ in cd/m², and of what is asked for beside it
 //!     → film::develop     exposure, white balance, RGB space, gamut
 //!     → image             EXR with its layers, spectral EXR, PNG
@@ -27,6 +28,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod adaptive;
 pub mod bsdf;
 pub mod camera;
 pub mod cli;

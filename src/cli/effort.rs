@@ -1,10 +1,7 @@
-//! How long a render goes on, and where: for so many samples, for so long, or until its error is small enough.
+//! What a command line says of how long a render goes on and where, and what people are told of it.
 
+use crate::adaptive::{Aim, Bound, Effort, LEAST_SHARED, LIMIT, Look, Measure, Reached, Target};
 use crate::film::REPLICATES;
-use crate::report::View;
-use crate::report::bound::{Bound, Unseen};
-use crate::report::noise::Noise;
-use crate::report::plan::Aim;
 use crate::scene::SceneError;
 use clap::Args;
 use std::fmt;
@@ -32,51 +29,7 @@ pub struct EffortArgs {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sharing(pub Option<Aim>);
 
-/// A bound on an error of the picture.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Target {
-    pub measure: Measure,
-    pub bound: f64,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Measure {
-    MeanDe,
-    De95,
-    Rmse,
-}
-
 const MEASURES: [(&str, Measure); 3] = [("dE", Measure::MeanDe), ("dE95", Measure::De95), ("rmse", Measure::Rmse)];
-
-impl fmt::Display for Measure {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(match self {
-            Self::MeanDe => "mean ΔE2000",
-            Self::De95 => "95th percentile of ΔE2000",
-            Self::Rmse => "RMSE of linear RGB",
-        })
-    }
-}
-
-impl Measure {
-    /// What it is at most in a picture of this noise, in which light may be missing.
-    pub fn of(self, noise: &Noise, view: &View, unseen: &Unseen) -> Bound {
-        match self {
-            Self::MeanDe => Bound::of_mean_de(noise, view, unseen),
-            Self::De95 => Bound::of_de95(noise, view, unseen),
-            Self::Rmse => Bound::of_rmse(noise, view, unseen),
-        }
-    }
-
-    /// Of two halves of a picture together.
-    pub fn of_both(self, [a, b]: [f64; 2]) -> f64 {
-        match self {
-            Self::MeanDe => 0.5 * (a + b),
-            Self::De95 => a.max(b),
-            Self::Rmse => (0.5 * (a * a + b * b)).sqrt(),
-        }
-    }
-}
 
 impl FromStr for Target {
     type Err = String;
@@ -115,23 +68,6 @@ pub fn duration(text: &str) -> Result<Duration, String> {
         Ok(number) if number > 0.0 && number * scale < 1e9 => Ok(Duration::from_secs_f64(number * scale)),
         _ => Err("expected a time above 0, such as 60s, 5m or 1h".into()),
     }
-}
-
-/// Samples a pixel at most, unless --spp says otherwise: where single precision and the sampler's table end to gain.
-const LIMIT: u64 = 1 << 16;
-
-/// Fewer samples a pixel are not shared out: a quarter of them would tell too little of the noise.
-pub const LEAST_SHARED: u32 = 16;
-
-/// How long a render is to go on.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Effort {
-    /// For so many samples a pixel, in the mean if they are shared out.
-    Samples { samples: u64, aim: Option<Aim> },
-    /// Until the time is over, so many samples at most.
-    Time { time: Duration, most: u64, aim: Option<Aim> },
-    /// Until the targets are met, so many samples a pixel and so long at most.
-    Error { targets: Vec<Target>, time: Option<Duration>, most: u64 },
 }
 
 impl EffortArgs {
@@ -189,31 +125,16 @@ impl EffortArgs {
     }
 }
 
-impl Effort {
-    /// Samples a pixel that progress is shown against, if they are known.
-    pub fn samples(&self) -> Option<u64> {
-        match self {
-            Self::Samples { samples, .. } => Some(*samples),
-            _ => None,
-        }
-    }
-}
-
-/// What was asked for and what was reached.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Reached {
-    pub targets: Vec<Target>,
-    pub bounds: Vec<Bound>,
-    pub mean_samples: f64,
-    pub met: bool,
-    /// By which way light may be there that was not found, for people; empty if by none.
-    pub way: String,
-    /// How many pixels hold half of the error, where these are few.
-    pub held: Option<usize>,
+/// Says how large the error still is.
+pub fn so_far(look: &Look) -> String {
+    let each =
+        |(target, bound): (&Target, &Bound)| format!("{} ≤ {:.3} of {}", target.measure, bound.promised, target.bound);
+    let all: Vec<String> = look.targets.iter().zip(&look.bounds).map(each).collect();
+    format!("{:>6.0} samples a pixel: {}", look.mean_samples, all.join(", "))
 }
 
 impl Reached {
-    /// Why nothing can be promised, where light that may be missing is more than was asked for.
+    /// Says why nothing can be promised, where light that may be missing is more than was asked for.
     pub fn reason(&self) -> Option<String> {
         let missing = |(target, bound): &(&Target, &Bound)| bound.missed > target.bound && bound.missed.is_finite();
         let (target, bound) = self.targets.iter().zip(&self.bounds).find(missing)?;
@@ -224,8 +145,8 @@ impl Reached {
         ))
     }
 
-    /// Returns whether few samples decide about the error, in words.
-    pub fn few(&self) -> Option<String> {
+    /// Says whether a handful of samples decide about the error.
+    pub fn held_by(&self) -> Option<String> {
         let pixels = self.held?;
         let what = if pixels == 1 { "one pixel holds" } else { "pixels hold" };
         let count = if pixels == 1 { String::new() } else { format!("{pixels} ") };

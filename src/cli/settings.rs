@@ -32,3 +32,11 @@ impl SettingsArgs {
         self.spp
     }
 }
+
+/// An option's wavelengths a path.
+pub fn lanes(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(lanes @ (1 | 4 | 8)) => Ok(lanes),
+        _ => Err("a path carries 1, 4 or 8 wavelengths".into()),
+    }
+}

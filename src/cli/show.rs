@@ -78,3 +78,9 @@ pub fn data_sets<'a>(all: impl IntoIterator<Item = &'a DataSet>) -> Vec<(&'a Abo
 pub fn range_nm(range: Option<(f64, f64)>) -> String {
     range.map_or("everywhere".into(), |(first, last)| format!("{first:.0}–{last:.0} nm"))
 }
+
+/// A word as a shell takes it.
+pub fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "-_=,./+:".contains(c);
+    if word.chars().all(plain) { word.to_owned() } else { format!("'{}'", word.replace('\'', r"'\''")) }
+}

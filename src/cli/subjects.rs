@@ -1,6 +1,7 @@
 //! Materials and models that a command is about, without a scene: by name, and with other data sets in the place of theirs.
 
-use super::{LibraryArgs, pair, show};
+use super::scene_file::{LibraryArgs, pair};
+use super::show;
 use crate::fresnel::{FresnelModel, UnknownModel};
 use crate::scene::{Optics, SceneError, class_of, optics};
 use crate::spectrum::Library;

@@ -12,6 +12,7 @@
 //! - [`exposure`]: which luminance becomes display white
 //! - [`develop`]: exposure → white balance → RGB
 //! - [`gamut`]: what a display cannot show, counted and, for PNG, moved inside
+//! - [`view`]: radiances as a display shows them; [`unseen`]: light that may be missing
 
 pub mod batch;
 pub mod develop;
@@ -24,6 +25,8 @@ pub mod hash;
 pub mod layers;
 pub mod pixel;
 pub mod replicates;
+pub mod unseen;
+pub mod view;
 pub mod window;
 
 pub use develop::{Develop, Developed};
@@ -35,6 +38,8 @@ pub use hash::fnv1a_64;
 pub use layers::{Kept, Layers, LayersRow, Wanted};
 pub use pixel::Pixel;
 pub use replicates::{REPLICATES, Replicates};
+pub use unseen::Unseen;
+pub use view::View;
 pub use window::Window;
 
 use rayon::prelude::*;

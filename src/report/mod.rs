@@ -2,9 +2,7 @@
 //!
 //! - `f0`: colours of interfaces at normal incidence, at 82° and averaged, for tables and for checking those of others.
 //! - `fresnel`: reflectance curves, and the errors of approximations.
-//! - `view`: radiances as a display shows them; `difference`: two pictures compared, replicate by replicate.
-//! - `noise`: how far a picture is from the one without noise; `bound`: what may be promised of that; `plan`: which pixel gets how many samples;
-//!   `parts`: what first samples tell of that.
+//! - `difference`: two pictures compared, replicate by replicate.
 //! - `jackknife`: what independent replicates say of a number's error.
 //! - `comparison`: variants of a scene beside each other, as one HTML page and as JSON.
 //! - `bench`: speed against error, as text, figure, HTML page and JSON.
@@ -16,7 +14,6 @@
 //! Numbers in, text and pixels out: this room knows no scene.
 
 pub mod bench;
-pub mod bound;
 pub mod colormap;
 pub mod comparison;
 pub mod difference;
@@ -24,18 +21,12 @@ pub mod f0;
 pub mod fresnel;
 mod grid;
 pub mod jackknife;
-mod lift;
 pub mod markup;
-pub mod noise;
-pub mod parts;
-pub mod plan;
 pub mod plot;
 pub mod table;
 pub mod timing;
-pub mod view;
 
 pub use comparison::Comparison;
 pub use difference::{Difference, Noise, Verdict};
 pub use grid::Grid;
 pub use jackknife::Estimate;
-pub use view::View;

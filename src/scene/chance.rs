@@ -3,7 +3,7 @@
 //! Shadow rays go straight to a light. By way of a smooth mirror or glass, and to the camera itself, light comes only along paths that
 //! happen to meet the lamp: what such a path brings is the lamp's whole radiance, and a lamp that is small and bright is found by one path
 //! in many. A render that has not met it yet knows nothing of it, so whoever promises an error has to add what may have been missed
-//! (`report::bound`). No path brings more than the brightest light that has such a way; [`Chance`] is that bound.
+//! (`adaptive::bound`). No path brings more than the brightest light that has such a way; [`Chance`] is that bound.
 //!
 //! On a surface of roughness α a light of solid angle Ω is aimed at, but only within the lobe: one sample brings at most
 //! F D / 4 · L Ω ≈ L Ω / (4 π α²) (GGX at its peak, B. Walter et al. 2007, equation 33); at grazing angles up to twice that. So sharp lobes

@@ -10,16 +10,15 @@ mod scenes;
 
 use common::pictures::{write_exr, write_png};
 use scenes::Case;
-use spectrel::cli::effort::{Measure, Reached, Target};
-use spectrel::cli::promise::Goal;
-use spectrel::cli::work::Work;
+use spectrel::adaptive::noise::Noise;
+use spectrel::adaptive::{Goal, Measure, Reached, RenderLoop, Samples, Target};
+use spectrel::film::Unseen;
+use spectrel::film::View;
 use spectrel::film::{Develop, Exposure, Gamut, Layers, REPLICATES, Wanted, Window};
 use spectrel::fresnel::FresnelModel;
 use spectrel::render::{Kernel, Recorder};
-use spectrel::report::bound::Unseen;
+use spectrel::report::Difference;
 use spectrel::report::difference::{Image, compare};
-use spectrel::report::noise::Noise;
-use spectrel::report::{Difference, View};
 use spectrel::scene::describe::ExposureValue;
 use spectrel::scene::{Chance, Needs, Overrides, Scene, Text, resolve};
 use spectrel::spectrum::{RgbSpace, ciede2000, lab_from_xyz};
@@ -90,7 +89,7 @@ fn stopped(case: &Case, seed: u64, target: Target, knows: bool) -> (Picture, Rea
     rendered(case, seed, |work, layers, develop, needs| {
         let none = Chance::default();
         let chance = if knows { &needs.chance } else { &none };
-        work.for_error(layers, &Goal { targets: &[target], time: None, most: LIMIT, chance }, develop)
+        work.for_error(layers, &Goal { targets: &[target], time: None, most: LIMIT, chance }, develop, &|_| {})
             .expect("a picture")
     })
 }
@@ -103,11 +102,11 @@ fn selfish(case: &Case, seed: u64, target: Target) -> (Picture, f64) {
         let noise = Noise::of(layers.replicates(), SIZE as usize, &view(develop));
         target.measure.of(&noise, &view(develop), &unseen).promised <= target.bound
     };
-    let render = |work: &Work, layers: &mut Layers, develop: &Develop, _: &Needs| {
+    let render = |work: &RenderLoop, layers: &mut Layers, develop: &Develop, _: &Needs| {
         let mut samples = 16;
         work.evenly(layers, samples);
         while samples < LIMIT && !small_enough(layers, develop) {
-            work.go_on(layers, &vec![samples..samples + samples / 4; PIXELS]);
+            work.add(layers, Samples::Own(&vec![samples..samples + samples / 4; PIXELS]));
             samples += samples / 4;
         }
         samples as f64
@@ -115,14 +114,19 @@ fn selfish(case: &Case, seed: u64, target: Target) -> (Picture, f64) {
     rendered(case, seed, render)
 }
 
-fn rendered<T>(case: &Case, seed: u64, render: impl Fn(&Work, &mut Layers, &Develop, &Needs) -> T) -> (Picture, T) {
+fn rendered<T>(
+    case: &Case,
+    seed: u64,
+    render: impl Fn(&RenderLoop, &mut Layers, &Develop, &Needs) -> T,
+) -> (Picture, T) {
     let scene = read(case, &Overrides { seed: Some(seed), ..Overrides::default() });
     let needs = Needs::of(&scene);
     let kernel = Kernel::new(&scene, &needs);
     let recorder = Recorder::new(&kernel, None, None);
     let wanted = Wanted { replicates: true, ..Wanted::default() };
     let mut layers = Layers::new([SIZE; 2], Window::full(SIZE, SIZE), wanted).expect("small");
-    let work = Work { recorder: &recorder, progress: &(), cancel: &AtomicBool::new(false), quiet: true };
+    let cancel = AtomicBool::new(false);
+    let work = RenderLoop::new(&recorder, &(), &cancel);
     let told = render(&work, &mut layers, &develop(&scene), &needs);
     (developed(layers.film(), &scene), told)
 }

@@ -11,7 +11,7 @@
 //! is nobody's exit. δ and ε hold what rounding may add to both, so that the planes left over give every ray its exit to the bit.
 
 use super::Convex;
-use super::exit::{BLOCK, Block, CHECK_EVERY, FIRST_CHECK, Points, TOUCHING};
+use super::planes::{BLOCK, Block, CHECK_EVERY, FIRST_CHECK, Points, TOUCHING};
 use glam::Vec3;
 
 /// Vectors farther apart than this are met by all planes: too many would be left over.

@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::Convex;
-use super::exit::BLOCK;
+use super::planes::BLOCK;
 use crate::geometry::ray::{Crossing, Probe, Side, sum_abs};
 
 const EPSILON: f32 = f32::EPSILON;

@@ -7,16 +7,18 @@
 mod bundle;
 mod exit;
 mod meet;
+mod planes;
 mod polyhedron;
 
 use glam::{Affine3A, DVec3, Vec3};
 
-pub use exit::{Exits, Points};
+pub use exit::Exits;
+pub use planes::Points;
 pub use polyhedron::Plane;
 
 use super::ray::Surface;
 use super::{Bounds, GeometryError, check};
-use exit::{BLOCK, Block, Spread};
+use planes::{BLOCK, Block, Spread};
 use polyhedron::Polyhedron;
 
 /// A facet of a convex solid.

@@ -1,7 +1,7 @@
 //! How far a picture is from a reference, and a render from its variant's mean.
 
-use super::super::View;
 use super::super::difference::Image;
+use crate::film::View;
 use crate::spectrum::{Xyz, ciede2000};
 use rayon::prelude::*;
 

@@ -3,8 +3,7 @@
 use super::error::{Error, common_square, error, noise};
 use super::ratio::median;
 use super::{Bias, CLEAR, Ratio, Reference, Run, Variant, Way, findings, pareto};
-use crate::report::View;
-use crate::report::bound::Unseen;
+use crate::film::{Unseen, View};
 use crate::report::difference::{self, Compared, Image, compare, merged};
 
 /// All renders of one variant with so many samples; the nth of each variant has the same seed, and was made in the same turn.

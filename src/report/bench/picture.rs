@@ -1,7 +1,7 @@
 //! What a scene looks like, small, beside its numbers.
 
-use super::super::View;
 use super::super::difference::Image;
+use crate::film::View;
 use crate::image::{ImageError, png};
 use crate::spectrum::encode_srgb;
 

@@ -26,9 +26,8 @@
 
 mod sums;
 
-use super::View;
-use super::bound::Unseen;
 use super::jackknife::Estimate;
+use crate::film::{Unseen, View};
 use crate::spectrum::{Xyz, ciede2000};
 use rayon::prelude::*;
 use serde::Serialize;

@@ -1,8 +1,8 @@
 //! What a comparison adds up, pixel by pixel: see the head of [`super`] for what it is made of.
 
-use super::super::View;
 use super::super::jackknife::{Estimate, reach};
 use super::{DeltaE, Difference, Missed, Verdict, percentile};
+use crate::film::View;
 use crate::spectrum::{Xyz, ciede2000, ciede2000_metric};
 
 /// Pictures are in single precision: rounding loses or gains less than that, of energy and of mean ΔE2000, always to the same side.

@@ -2,12 +2,9 @@
 
 use crate::common::command::{folder, refused, run};
 use crate::common::{film, scene};
-use spectrel::cli::effort::{Reached, Target};
-use spectrel::cli::promise::Goal;
-use spectrel::cli::work::Work;
+use spectrel::adaptive::{Aim, Goal, Halves, Reached, RenderLoop, SharedLoop, Target};
 use spectrel::film::{Develop, Exposure, Film, Gamut, Layers, Replicates, Wanted, Window};
 use spectrel::render::{Kernel, Recorder, render_layers, render_planned};
-use spectrel::report::plan::Aim;
 use spectrel::scene::{Needs, Overrides, Scene};
 use spectrel::spectrum::{Matrix3, RgbSpace, ciede2000, lab_from_xyz};
 use std::sync::LazyLock;
@@ -76,9 +73,10 @@ fn stopped(seed: u64, targets: &str, most: u64) -> (Vec<[f64; 3]>, Reached) {
     let wanted = Wanted { replicates: true, ..Wanted::default() };
     let mut layers = Layers::new([32, 32], Window::full(32, 32), wanted).expect("small");
     let targets: Vec<Target> = targets.split(',').map(|target| target.parse().expect("a target")).collect();
-    let work = Work { recorder: &recorder, progress: &(), cancel: &AtomicBool::new(false), quiet: true };
+    let cancel = AtomicBool::new(false);
+    let work = RenderLoop::new(&recorder, &(), &cancel);
     let goal = Goal { targets: &targets, time: None, most, chance: &needs.chance };
-    let reached = work.for_error(&mut layers, &goal, &develop(&scene)).expect("a picture");
+    let reached = work.for_error(&mut layers, &goal, &develop(&scene), &|_| {}).expect("a picture");
     (developed(layers.film(), &scene), reached)
 }
 
@@ -180,7 +178,7 @@ fn shared(seed: u64, samples: u64, aim: Option<Aim>) -> Layers {
 fn shared_with(seed: u64, samples: u64, aim: Option<Aim>, wanted: Wanted) -> Layers {
     rendered(seed, wanted, |work, layers, develop| match aim {
         Some(aim) => work.shared(layers, samples, aim, develop).expect("a picture"),
-        None => work.evenly(layers, samples),
+        None => work.plain().evenly(layers, samples),
     })
 }
 
@@ -192,13 +190,14 @@ fn shared_until(samples: u64, wanted: Wanted) -> Layers {
     })
 }
 
-fn rendered(seed: u64, wanted: Wanted, render: impl Fn(&Work, &mut Layers, &Develop)) -> Layers {
+fn rendered(seed: u64, wanted: Wanted, render: impl Fn(&SharedLoop, &mut Layers, &Develop)) -> Layers {
     let scene = scene(SCENE, &Overrides { seed: Some(seed), ..Overrides::default() });
     let needs = Needs::of(&scene);
     let kernel = Kernel::new(&scene, &needs);
-    let recorder = Recorder::new(&kernel, None, None).in_halves();
+    let halves = Halves::of(Recorder::new(&kernel, None, None));
     let mut layers = Layers::new([32, 32], Window::full(32, 32), wanted).expect("small");
-    let work = Work { recorder: &recorder, progress: &(), cancel: &AtomicBool::new(false), quiet: true };
+    let cancel = AtomicBool::new(false);
+    let work = SharedLoop::new(&halves, &(), &cancel);
     render(&work, &mut layers, &develop(&scene));
     layers
 }

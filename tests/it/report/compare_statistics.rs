@@ -1,9 +1,9 @@
 //! What a comparison says of pictures whose truth is known: drawn here, with noise of known size.
 
 use crate::common::random::Random;
-use spectrel::report::bound::Unseen;
+use spectrel::film::{Unseen, View};
 use spectrel::report::difference::{Image, compare};
-use spectrel::report::{Difference, Verdict, View};
+use spectrel::report::{Difference, Verdict};
 use spectrel::spectrum::RgbSpace;
 
 const REPLICATES: usize = 8;

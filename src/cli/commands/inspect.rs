@@ -1,6 +1,7 @@
 //! `spectrel inspect`: what a scene is understood to be.
 
-use super::{SceneArgs, show};
+use crate::cli::scene_file::SceneArgs;
+use crate::cli::show;
 use crate::geometry::{Mesh, Shape};
 use crate::light::Source;
 use crate::report::markup;

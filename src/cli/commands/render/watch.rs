@@ -8,8 +8,8 @@
 //! mind editors that write a new file and rename it over the old one; notifications from the system would need a crate
 //! with a backend for each system, and would lose a file that is renamed unless its folder is watched instead.
 
-use super::interrupt::Interrupt;
-use super::show;
+use crate::cli::interrupt::Interrupt;
+use crate::cli::show;
 use crate::scene::{SceneError, Text};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

@@ -11,14 +11,14 @@
 //! What is promised of a half is what the noise of the other half would be with the samples of the first: how many the other half has was
 //! decided by what the first one drew. Both promises together are the picture's.
 
-use super::effort::{Measure, Reached, Target};
-use super::show;
-use super::work::{Work, counts, viewed, width};
+use super::allocation::{Aim, Shares};
+use super::bound::Bound;
+use super::noise::{Noise, half};
+use super::render_loop::{RenderLoop, Samples, counts, viewed, width};
+use super::target::{Measure, Reached, Target};
+use crate::film::Unseen;
+use crate::film::View;
 use crate::film::{Develop, FilmError, Layers, REPLICATES};
-use crate::report::View;
-use crate::report::bound::{Bound, Unseen};
-use crate::report::noise::{Noise, half};
-use crate::report::plan::{Aim, Shares};
 use crate::scene::Chance;
 use std::time::{Duration, Instant};
 
@@ -45,6 +45,16 @@ pub struct Goal<'a> {
     pub chance: &'a Chance,
 }
 
+/// What is promised of a picture on its way.
+#[derive(Clone, Debug)]
+pub struct Look<'a> {
+    /// Samples a pixel.
+    pub mean_samples: f64,
+    pub targets: &'a [Target],
+    /// One a target.
+    pub bounds: Vec<Bound>,
+}
+
 /// What is promised of a half, and whether that is enough.
 struct Promise {
     bounds: Vec<Bound>,
@@ -60,9 +70,16 @@ impl Promise {
     }
 }
 
-impl Work<'_> {
+impl RenderLoop<'_> {
     /// Samples where they help most until the targets are met, the time is over, or the limit of samples is reached.
-    pub fn for_error(&self, layers: &mut Layers, goal: &Goal, develop: &Develop) -> Result<Reached, FilmError> {
+    /// `look` is told what is promised each time it is looked at.
+    pub fn for_error(
+        &self,
+        layers: &mut Layers,
+        goal: &Goal,
+        develop: &Develop,
+        look: &dyn Fn(&Look),
+    ) -> Result<Reached, FilmError> {
         let (started, each) = (Instant::now(), REPLICATES as u64);
         let first = (FIRST.min(goal.most) / each).max(1) * each;
         self.evenly(layers, first);
@@ -72,7 +89,7 @@ impl Work<'_> {
         let (mut mean, mut kept) = (first as f64, None);
         let mut promises = [0, 1].map(|which| goal.promise(layers, &view, mean, which));
         loop {
-            self.tell(mean, goal.targets, &promises);
+            look(&Look { mean_samples: mean, targets: goal.targets, bounds: together(goal.targets, &promises) });
             let affordable = goal.affordable(started.elapsed(), mean);
             let over = affordable < mean * 1.05 || mean >= goal.most as f64 || self.cancelled();
             if over || promises.iter().all(Promise::keeps) {
@@ -85,7 +102,7 @@ impl Work<'_> {
                 kept = settled.map(|which| layers.keep(of_half(layers, which)));
             }
             mean = nearest(&promises).min(affordable).min(goal.most as f64);
-            self.go_on(layers, &shares.ranges(counts(layers), |_| mean, each));
+            self.add(layers, Samples::Own(&shares.ranges(counts(layers), mean, each)));
             let (_, view) = viewed(layers, develop)?;
             let last = mean >= affordable || mean >= goal.most as f64;
             for (which, promise) in promises.iter_mut().enumerate() {
@@ -94,17 +111,6 @@ impl Work<'_> {
                 }
             }
         }
-    }
-
-    fn tell(&self, mean: f64, targets: &[Target], promises: &[Promise; 2]) {
-        if self.quiet {
-            return;
-        }
-        let each = |(target, bound): (&Target, Bound)| {
-            format!("{} ≤ {:.3} of {}", target.measure, bound.promised, target.bound)
-        };
-        let all: Vec<String> = targets.iter().zip(together(targets, promises)).map(each).collect();
-        show::note(format_args!("{mean:>6.0} samples a pixel: {}", all.join(", ")));
     }
 }
 

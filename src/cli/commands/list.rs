@@ -1,6 +1,7 @@
 //! `spectrel list`: what scenes can name, and where it comes from.
 
-use super::{LibraryArgs, show};
+use crate::cli::scene_file::LibraryArgs;
+use crate::cli::show;
 use crate::report::markup;
 use crate::scene::materials::{Kind, Material};
 use crate::scene::{SceneError, Text};

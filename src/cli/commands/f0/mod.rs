@@ -3,8 +3,8 @@
 mod against;
 mod subjects;
 
-use super::show;
-use super::subjects::DataArgs;
+use crate::cli::show;
+use crate::cli::subjects::DataArgs;
 use crate::report::f0::formats::{self, Format, Report};
 use crate::report::f0::{Conditions, Instrument, observer_name};
 use crate::scene::SceneError;

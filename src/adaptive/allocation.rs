@@ -7,11 +7,11 @@
 //!
 //! A pixel whose own first samples decided how many it gets would be biased: where they happen to be alike, it gets few, and what is rare in
 //! it is missed for good. Here σₚ is that of the pixels around it that lie in the other half of the picture, the other fields of a
-//! chessboard ([`half`]), and of the first samples alone ([`super::parts`]). Halves draw independent numbers
+//! chessboard ([`half`]), and of the first samples alone ([`super::pilot`]). Halves draw independent numbers
 //! (`render::Recorder::in_halves`; replicates do anyway), and each is shared out by itself, so that the number of a pixel's samples depends
 //! on nothing that its half has drawn: its mean is what it is without any plan (`tests/it/cli/target_error.rs`). Only the exposure by which ΔE is
 //! seen may be that of the whole picture, and where time is the limit, how many samples there are in all.
-//! When to go on is decided for either half by the other one, for the same reason (`cli::promise`).
+//! When to go on is decided for either half by the other one, for the same reason ([`super::promise`]).
 
 use super::noise::{Noise, half};
 use std::ops::Range;
@@ -85,10 +85,10 @@ impl Shares {
         self.0.iter().copied().fold(1.0, f64::max)
     }
 
-    /// Samples of each pixel from those that it has to its share of what is the mean where it lies, in whole steps; never fewer than it has.
-    pub fn ranges(&self, has: impl Iterator<Item = u64>, mean: impl Fn(usize) -> f64, step: u64) -> Vec<Range<u64>> {
-        let wanted = |(at, share): (usize, &f64)| libm::round(share * mean(at) / step as f64) as u64 * step;
-        self.0.iter().enumerate().zip(has).map(|(place, has)| has..wanted(place).max(has)).collect()
+    /// Samples of each pixel from those that it has to its share of that mean, in whole steps; never fewer than it has.
+    pub fn ranges(&self, has: impl Iterator<Item = u64>, mean: f64, step: u64) -> Vec<Range<u64>> {
+        let wanted = |share: &f64| libm::round(share * mean / step as f64) as u64 * step;
+        self.0.iter().zip(has).map(|(share, has)| has..wanted(share).max(has)).collect()
     }
 }
 
@@ -183,8 +183,8 @@ mod tests {
     #[test]
     fn ranges_go_on_where_they_ended() {
         let shares = Shares(vec![0.5, 1.5]);
-        assert_eq!(shares.ranges([16, 16].into_iter(), |_| 32.0, 8), vec![16..16, 16..48]);
-        assert_eq!(shares.ranges([16, 48].into_iter(), |_| 64.0, 8), vec![16..32, 48..96]);
+        assert_eq!(shares.ranges([16, 16].into_iter(), 32.0, 8), vec![16..16, 16..48]);
+        assert_eq!(shares.ranges([16, 48].into_iter(), 64.0, 8), vec![16..32, 48..96]);
     }
 
     #[test]

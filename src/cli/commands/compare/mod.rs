@@ -5,11 +5,13 @@ mod outcome;
 mod replicates;
 mod variants;
 
-use super::folder::{Folder, Kind};
-use super::interrupt::Interrupt;
-use super::progress::Shown;
-use super::settings::SettingsArgs;
-use super::{LibraryArgs, job, memory, pair, scene_name, scene_text, show};
+use crate::cli::folder::{Folder, Kind};
+use crate::cli::interrupt::Interrupt;
+use crate::cli::progress::Shown;
+use crate::cli::scene_file::{LibraryArgs, pair, scene_name, scene_text};
+use crate::cli::settings::SettingsArgs;
+use crate::cli::show::{self, quoted};
+use crate::cli::{memory, picture};
 use crate::film::Film;
 use crate::fresnel::FresnelModel;
 use crate::report::comparison::JSON_FILE;
@@ -18,13 +20,13 @@ use crate::report::jackknife::MOST;
 use crate::scene::{Scene, SceneError, Text};
 use clap::Args;
 use outcome::Outcome;
-use replicates::{Plan, render_all};
+use replicates::{Replication, render_all};
 use std::path::PathBuf;
 use std::time::Instant;
 use variants::{DEFAULT_MODELS, Variant, variants};
 
 /// The scene that is compared when none is named.
-const DEFAULT_SCENE: (&str, &str) = ("built-in:scenes/compare.toml", include_str!("../../../scenes/compare.toml"));
+const DEFAULT_SCENE: (&str, &str) = ("built-in:scenes/compare.toml", include_str!("../../../../scenes/compare.toml"));
 
 const KIND: Kind = Kind { file: JSON_FILE, command: "compare" };
 
@@ -71,7 +73,7 @@ fn models_help() -> String {
 
 impl CompareArgs {
     /// The command that makes the same report, whatever the scene's file says by then of its size and samples.
-    fn command(&self, variants: &[Variant], scene: &Scene, plan: &Plan) -> String {
+    fn command(&self, variants: &[Variant], scene: &Scene, replication: &Replication) -> String {
         let models: Vec<_> =
             variants.iter().filter(|v| v.vary.is_empty() && v.ior.is_empty()).map(|v| v.model.name()).collect();
         let mut words: Vec<String> = vec!["spectrel".into(), "compare".into()];
@@ -83,21 +85,15 @@ impl CompareArgs {
         self.ior.iter().for_each(|(material, data)| option("ior", format!("{material}={data}")));
         option("width", scene.settings.width.to_string());
         option("height", scene.settings.height.to_string());
-        option("spp", plan.samples_in_all().to_string());
-        option("seed", plan.seed.to_string());
-        option("replicates", plan.seeds.len().to_string());
+        option("spp", replication.samples_in_all().to_string());
+        option("seed", replication.seed.to_string());
+        option("replicates", replication.seeds.len().to_string());
         words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
     }
 
     fn folder(&self) -> PathBuf {
         self.output.clone().unwrap_or_else(|| format!("{}-compare", scene_name(self.scene.as_deref())).into())
     }
-}
-
-/// A word as a shell takes it.
-pub fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_alphanumeric() || "-_=,./+:".contains(c);
-    if word.chars().all(plain) { word.to_owned() } else { format!("'{}'", word.replace('\'', r"'\''")) }
 }
 
 pub fn run(args: &CompareArgs) -> Result<(), SceneError> {
@@ -107,13 +103,13 @@ pub fn run(args: &CompareArgs) -> Result<(), SceneError> {
     let text = scene_text(args.scene.as_deref(), DEFAULT_SCENE)?;
     let mut scenes = resolve_all(&variants, &text, args)?;
     let settings = &scenes[0].settings;
-    let plan = Plan::new(settings.seed, settings.samples, args.replicates);
-    check_memory(&scenes, &plan)?;
-    let identities: Vec<u64> = scenes.iter().map(job::fingerprint).collect();
+    let replication = Replication::new(settings.seed, settings.samples, args.replicates);
+    check_memory(&scenes, &replication)?;
+    let identities: Vec<u64> = scenes.iter().map(picture::fingerprint).collect();
     let interrupt = Interrupt::listen();
-    let progress = Shown::new(samples(&scenes, &plan), args.quiet);
+    let progress = Shown::new(samples(&scenes, &replication), args.quiet);
     let started = Instant::now();
-    let rendered = render_all(&mut scenes, &plan, &progress, &interrupt)?;
+    let rendered = render_all(&mut scenes, &replication, &progress, &interrupt)?;
     progress.finish();
     if rendered[0].replicates.len() < FEWEST {
         // Too little to tell noise from difference: as if nobody had listened.
@@ -129,7 +125,7 @@ pub fn run(args: &CompareArgs) -> Result<(), SceneError> {
         variants: &variants,
         scenes: &scenes,
         identities: &identities,
-        plan: &plan,
+        replication: &replication,
         rendered: &rendered,
     };
     let report = outcome.compare(rendering, interrupt.pressed())?;
@@ -151,14 +147,14 @@ fn resolve_all(variants: &[Variant], text: &Text, args: &CompareArgs) -> Result<
 }
 
 /// Films of all variants and of their newest replicates; what is kept of every replicate, and what is made of all: XYZ, RGB, maps.
-fn check_memory(scenes: &[Scene], plan: &Plan) -> Result<(), SceneError> {
-    let window = job::window(scenes[0].settings.crop);
-    let images = (plan.seeds.len() + 3) * size_of::<[f32; 3]>();
+fn check_memory(scenes: &[Scene], replication: &Replication) -> Result<(), SceneError> {
+    let window = picture::window(scenes[0].settings.crop);
+    let images = (replication.seeds.len() + 3) * size_of::<[f32; 3]>();
     let a_pixel = 2 * Film::memory_bytes(1, 1) + images as u64;
     memory::check_or(window, a_pixel * scenes.len() as u64, 0, "make it smaller with --width, or name fewer variants")
 }
 
-fn samples(scenes: &[Scene], plan: &Plan) -> u64 {
+fn samples(scenes: &[Scene], replication: &Replication) -> u64 {
     let pixels = |scene: &Scene| u64::from(scene.settings.width) * u64::from(scene.settings.height);
-    scenes.iter().map(pixels).sum::<u64>() * u64::from(plan.samples_in_all())
+    scenes.iter().map(pixels).sum::<u64>() * u64::from(replication.samples_in_all())
 }

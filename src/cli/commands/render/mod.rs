@@ -1,16 +1,22 @@
 //! `spectrel render`: a scene becomes pictures.
 
-use super::effort::EffortArgs;
-use super::interrupt::Interrupt;
-use super::job::Job;
-use super::layers::LayerArgs;
-use super::preview::{DEFAULT_HOST, Preview};
-use super::settings::SettingsArgs;
-use super::{SceneArgs, pair, scene_name, show, watch};
+mod job;
+mod layers;
+mod preview;
+mod watch;
+
+use crate::cli::effort::EffortArgs;
+use crate::cli::interrupt::Interrupt;
+use crate::cli::scene_file::{SceneArgs, pair, scene_name};
+use crate::cli::settings::{SettingsArgs, lanes};
+use crate::cli::show;
 use crate::fresnel::FresnelModel;
 use crate::image::{self, Bits, ExrSpace, Options};
 use crate::scene::{Overrides, SceneError, Text, resolve};
 use clap::Args;
+use job::Job;
+use layers::LayerArgs;
+use preview::{DEFAULT_HOST, Preview};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -71,13 +77,6 @@ fn crop(text: &str) -> Result<[u32; 4], String> {
     numbers.map_err(|_| expected())?.try_into().map_err(|_| expected())
 }
 
-pub fn lanes(text: &str) -> Result<u32, String> {
-    match text.parse() {
-        Ok(lanes @ (1 | 4 | 8)) => Ok(lanes),
-        _ => Err("a path carries 1, 4 or 8 wavelengths".into()),
-    }
-}
-
 fn bits(text: &str) -> Result<PngBits, String> {
     match text {
         "8" => Ok(PngBits(Bits::Eight)),
@@ -109,15 +108,7 @@ impl RenderArgs {
         scene_name(self.scene.scene.as_deref())
     }
 
-    pub fn quiet(&self) -> bool {
-        self.quiet
-    }
-
-    pub fn verbose(&self) -> bool {
-        self.verbose
-    }
-
-    pub fn options(&self) -> Options {
+    fn options(&self) -> Options {
         Options {
             bits: self.png_bits.0,
             exr_space: if self.exr_xyz { ExrSpace::Xyz } else { ExrSpace::Rgb },
@@ -135,7 +126,7 @@ pub fn run(args: &RenderArgs) -> Result<(), SceneError> {
         ));
     }
     args.settings.threads.start()?;
-    let plan = args.layers.plan(&outputs, &args.effort)?;
+    let recording = args.layers.recording(&outputs, &args.effort)?;
     let mut preview = args.preview.as_deref().map(|host| Preview::connect(host, &args.name())).transpose()?;
     let interrupt = Interrupt::listen();
     let mut render = |read: &dyn Fn(&[Text])| {
@@ -143,7 +134,15 @@ pub fn run(args: &RenderArgs) -> Result<(), SceneError> {
         read(&scene.sources);
         scene.warnings.iter().for_each(show::warning);
         let effort = args.effort.effort(args.settings.samples(), scene.settings.samples)?;
-        Job { args, plan: &plan, scene: &scene, effort: &effort }.run(&outputs, &interrupt, preview.as_mut())
+        let job = Job {
+            recording: &recording,
+            scene: &scene,
+            effort: &effort,
+            options: args.options(),
+            quiet: args.quiet,
+            verbose: args.verbose,
+        };
+        job.run(&outputs, &interrupt, preview.as_mut())
     };
     if !args.watch {
         return render(&|_| {});

@@ -16,10 +16,10 @@
 //! in one). The 95th percentile is that of pixels whose ΔE is spread like |N(0, 1)|, which has the longest tail of those that normal
 //! errors make.
 
-use super::View;
 use super::lift::{self, Seen};
 use super::noise::Noise;
-use crate::spectrum::{Xyz, ciede2000};
+use crate::film::View;
+use crate::film::unseen::{EVENTS, Unseen};
 use rayon::prelude::*;
 
 /// One-sided 95 % of a normal distribution, in standard deviations.
@@ -27,9 +27,6 @@ const CONFIDENCE: f64 = 1.645;
 
 /// What the skewness of a sum adds to its upper end.
 const SKEW: f64 = (CONFIDENCE * CONFIDENCE + 2.0) / 3.0;
-
-/// As many events may be expected, and none be seen, with 5 %.
-const EVENTS: f64 = 3.0;
 
 /// Mean over root mean square of the length of a normal vector that is the same in three directions.
 const MEAN_OF_LENGTH: f64 = 0.9213;
@@ -58,56 +55,6 @@ pub struct Bound {
     pub promised: f64,
 }
 
-/// Light that may be there though no path has found it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Unseen {
-    /// XYZ relative to display white that one path brings at most.
-    pub brightest: Xyz,
-    /// Samples of the pixel that has fewest.
-    pub samples: f64,
-    /// Pixels of the picture.
-    pub pixels: f64,
-}
-
-impl Unseen {
-    /// For pictures in which everything is aimed at.
-    pub const NOTHING: Self = Self { brightest: [0.0; 3], samples: 1.0, pixels: 1.0 };
-
-    /// Mean ΔE2000 that it makes if it lies evenly on pixels of these colours, relative to display white.
-    pub fn mean_de(&self, view: &View, colors: &[[f32; 3]]) -> f64 {
-        // Summed in order, so that looks end a render at the same sample everywhere.
-        let each: Vec<f64> = colors.par_iter().map(|color| self.delta_e(view, color, 1.0)).collect();
-        each.iter().sum::<f64>() / colors.len() as f64
-    }
-
-    /// Mean luminance that may be missing, relative to display white.
-    pub fn luminance(&self) -> f64 {
-        self.evenly(1.0)[1]
-    }
-
-    /// What each pixel has of so many times the light, if it lies evenly.
-    fn evenly(&self, amount: f64) -> Xyz {
-        self.brightest.map(|c| amount * EVENTS * c / (self.samples * self.pixels))
-    }
-
-    /// ΔE2000 that so many times the even share makes in a pixel of a colour.
-    fn delta_e(&self, view: &View, color: &[f32; 3], amount: f64) -> f64 {
-        let missing = self.evenly(amount);
-        let color = color.map(f64::from);
-        let brighter = std::array::from_fn(|i| color[i] + missing[i]);
-        if color == brighter { 0.0 } else { ciede2000(view.lab(color), view.lab(brighter)) }
-    }
-
-    /// ΔE2000 that amounts of it make in a pixel of a colour: more light is taken to make no less.
-    fn rise(&self, view: &View, color: &[f32; 3]) -> lift::Rise {
-        let mut most: f64 = 0.0;
-        lift::AMOUNTS.map(|amount| {
-            most = most.max(self.delta_e(view, color, amount));
-            most
-        })
-    }
-}
-
 impl Bound {
     /// Of what nothing is known.
     const UNKNOWN: Self = Self { estimate: f64::INFINITY, missed: f64::INFINITY, promised: f64::INFINITY };
@@ -133,7 +80,7 @@ impl Bound {
         if unseen.luminance() == 0.0 || !upper.is_finite() {
             return Self::joined(estimate, upper, 0.0);
         }
-        let rises: Vec<_> = chosen.par_iter().map(|at| unseen.rise(view, &noise.colors[*at])).collect();
+        let rises: Vec<_> = chosen.par_iter().map(|at| rise(unseen, view, &noise.colors[*at])).collect();
         let needed = seen.len() - place(seen.len(), PERCENTILE).unwrap_or(0);
         Self::joined(estimate, upper, lift::highest(&seen, &rises, needed) - estimate)
     }
@@ -155,6 +102,15 @@ impl Bound {
         // Of no pixels, too.
         if promised.is_finite() { Self { estimate, missed, promised } } else { Self::UNKNOWN }
     }
+}
+
+/// ΔE2000 that amounts of light make in a pixel of a colour: more light is taken to make no less.
+fn rise(unseen: &Unseen, view: &View, color: &[f32; 3]) -> lift::Rise {
+    let mut most: f64 = 0.0;
+    lift::AMOUNTS.map(|amount| {
+        most = most.max(unseen.delta_e(view, color, amount));
+        most
+    })
 }
 
 /// Indices of at most [`ENOUGH`] of so many pixels, which lie all over the picture and on no grid.
@@ -187,6 +143,7 @@ fn mean_and_upper(values: &[f32], sharing: f64, own: f64) -> (f64, f64) {
 mod tests {
     use super::*;
     use crate::film::Replicates;
+    use crate::spectrum::ciede2000;
 
     fn view() -> View {
         View::new(0.0, [0.95, 1.0, 1.09])

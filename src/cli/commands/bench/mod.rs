@@ -6,32 +6,34 @@ mod sweep;
 mod table;
 mod ways;
 
-use super::compare::quoted;
-use super::effort::duration;
-use super::folder::{Folder, Kind};
-use super::render::lanes;
-use super::threads::ThreadArgs;
-use super::{LibraryArgs, job, memory, read_text, show};
+use crate::adaptive::Aim;
+use crate::cli::effort::duration;
+use crate::cli::folder::{Folder, Kind};
+use crate::cli::memory;
+use crate::cli::picture::{development, window};
+use crate::cli::scene_file::{LibraryArgs, read_text};
+use crate::cli::settings::lanes;
+use crate::cli::show::{self, quoted};
+use crate::cli::threads::ThreadArgs;
 use crate::film::Film;
+use crate::film::View;
 use crate::fresnel::FresnelModel;
-use crate::report::View;
 use crate::report::bench::{
     Bench, HTML_FILE, JSON_FILE, Measured, SVG_FILE, Scale, Scene as Found, Standard, figure, measure, page, picture,
 };
-use crate::report::plan::Aim;
 use crate::scene::describe::SamplerName;
 use crate::scene::{Overrides, Scene, SceneError, Text};
 use clap::Args;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use sweep::{LADDER, Plan, REPEATS, REPLICATES, Sweep, Swept};
+use sweep::{Assignment, LADDER, REPEATS, REPLICATES, Sweep, Swept};
 use ways::{Way, ways};
 
 /// The scenes that are rendered when none is named.
 const DEFAULT_SCENES: [(&str, &str); 2] = [
-    ("built-in:scenes/metals.toml", include_str!("../../../scenes/metals.toml")),
-    ("built-in:scenes/diamond.toml", include_str!("../../../scenes/diamond.toml")),
+    ("built-in:scenes/metals.toml", include_str!("../../../../scenes/metals.toml")),
+    ("built-in:scenes/diamond.toml", include_str!("../../../../scenes/diamond.toml")),
 ];
 
 /// Pixels of a picture unless --width says otherwise: enough for a mean over them, few enough for many renders.
@@ -207,7 +209,7 @@ impl Subject {
         let images = self.ways.len() * counts.len() * REPEATS + REPLICATES;
         let a_pixel = Film::memory_bytes(1, 1) + (images * size_of::<[f32; 3]>()) as u64;
         let advice = "make it smaller with --width, or name fewer --spp";
-        memory::check_or(job::window(scene.settings.crop), a_pixel, 0, advice)
+        memory::check_or(window(scene.settings.crop), a_pixel, 0, advice)
     }
 
     /// Renders, and measures what was rendered; with a picture of the reference.
@@ -220,13 +222,13 @@ impl Subject {
         };
         let (needs_reference, reference) = (self.file.is_none(), args.reference_spp);
         let singles = self.ways.iter().filter(|way| way.changes().len() < 2).count();
-        let plan = Plan { seed: args.seed, counts, singles, reference, needs_reference, time };
+        let assignment = Assignment { seed: args.seed, counts, singles, reference, needs_reference, time };
         let Self { text, ways, scenes, file, mut left_out } = self;
         let [width, height] = [scenes[0].settings.width, scenes[0].settings.height];
-        let (development, white_balance) = (job::development(&scenes[0]), scenes[0].picture.white_balance.clone());
+        let (development, white_balance) = (development(&scenes[0]), scenes[0].picture.white_balance.clone());
         let from_file = file.map(|file| from_file(file, &scenes[0])).transpose()?;
         let subjects = scenes.into_iter().zip(&ways).map(|(scene, way)| (scene, way.aim())).collect();
-        let swept = Sweep::begin(subjects, &plan, &tell)?.run()?;
+        let swept = Sweep::begin(subjects, &assignment, &tell)?.run()?;
         left_out.extend(missing(&ways, &swept, args));
         let Swept { renders, replicates, replicate_samples, .. } = swept;
         let rendered = Standard::Rendered { replicates, samples: replicate_samples.into() };

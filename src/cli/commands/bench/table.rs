@@ -1,6 +1,6 @@
 //! What a person reads on the terminal: for every scene a table, and what it says.
 
-use super::super::show;
+use crate::cli::show;
 use crate::report::bench::{Bench, Run, Scene, Variant};
 use crate::report::comparison::short;
 

@@ -1,11 +1,11 @@
 //! The ways to render that are tried: the usual one, the usual one with one thing changed, and on demand with several.
 
-use super::super::effort::{self, Sharing};
 use super::BenchArgs;
+use crate::adaptive::Aim;
+use crate::cli::effort::{self, Sharing};
 use crate::fresnel::{FresnelModel, RgbModel, SpectralModel};
 use crate::math::LANES;
 use crate::report::bench::{self, Change};
-use crate::report::plan::Aim;
 use crate::scene::describe::SamplerName;
 use crate::scene::{Overrides, Scene, SceneError, Text, resolve};
 use crate::spectrum::Library;

@@ -1,17 +1,18 @@
 //! What came of a comparison: developed, measured, written.
 
-use super::super::{job, show};
 use super::CompareArgs;
 use super::interfaces::{curves, nanoseconds};
-use super::replicates::{Plan, Rendered};
+use super::replicates::{Rendered, Replication};
 use super::variants::Variant;
+use crate::cli::{picture, show};
+use crate::film::Unseen;
+use crate::film::View;
 use crate::film::{Develop, Developed, Exposure};
 use crate::image::{self, Format, Metadata, Options, png};
-use crate::report::bound::Unseen;
 use crate::report::colormap::{DELTA_E, LUMINANCE, Scale};
 use crate::report::comparison::{self, Comparison, Data, Files, HTML_FILE, JSON_FILE, Pictures, Settings};
 use crate::report::difference::{Compared, Image, compare, noise};
-use crate::report::{Difference, Verdict, View, markup};
+use crate::report::{Difference, Verdict, markup};
 use crate::scene::{Chance, Needs, Scene, SceneError, Text};
 use rayon::prelude::*;
 use std::time::Instant;
@@ -23,7 +24,7 @@ pub struct Outcome<'a> {
     pub scenes: &'a [Scene],
     /// What determines each scene, as it was before the render.
     pub identities: &'a [u64],
-    pub plan: &'a Plan,
+    pub replication: &'a Replication,
     pub rendered: &'a [Rendered],
 }
 
@@ -131,7 +132,7 @@ impl Outcome<'_> {
     }
 
     fn develop(&self) -> Result<Vec<Developed>, SceneError> {
-        let development = job::development(&self.scenes[0]);
+        let development = picture::development(&self.scenes[0]);
         let first = self.rendered[0].film.develop(&development).map_err(SceneError::new)?;
         let same = Develop { exposure: Exposure::Ev(first.ev), ..development };
         let others =
@@ -169,8 +170,8 @@ impl Outcome<'_> {
     /// As of any render, but that its seeds are several.
     fn metadata(&self, variant: usize, developed: &Developed) -> Metadata {
         let (scene, rendered) = (&self.scenes[variant], &self.rendered[variant]);
-        job::metadata(scene, self.identities[variant], &rendered.film, developed)
-            .with("seed", self.plan.seed)
+        picture::metadata(scene, self.identities[variant], &rendered.film, developed)
+            .with("seed", self.replication.seed)
             .with("replicates", rendered.replicates.len())
     }
 
@@ -178,12 +179,12 @@ impl Outcome<'_> {
         let (scene, rendered) = (&self.scenes[0], &self.rendered[0]);
         let replicates = rendered.replicates.len();
         Settings {
-            command: self.args.command(self.variants, scene, self.plan),
+            command: self.args.command(self.variants, scene, self.replication),
             width: scene.settings.width,
             height: scene.settings.height,
-            samples: u64::from(self.plan.samples) * replicates as u64,
-            seed: self.plan.seed,
-            replicate_seeds: self.plan.seeds[..replicates].to_vec(),
+            samples: u64::from(self.replication.samples) * replicates as u64,
+            seed: self.replication.seed,
+            replicate_seeds: self.replication.seeds[..replicates].to_vec(),
             exposure_ev: first.ev,
             white_balance: scene.picture.white_balance.clone(),
             observer: scene.picture.observer.about.name.clone(),

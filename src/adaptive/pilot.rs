@@ -14,12 +14,12 @@ const MOST: usize = 8;
 
 /// What every pixel looked like after each part of its first samples: its mean XYZ in cd/m².
 #[derive(Clone, Debug)]
-pub struct Parts {
+pub struct Pilot {
     size: u64,
     looks: Vec<Vec<[f32; 3]>>,
 }
 
-impl Parts {
+impl Pilot {
     /// Parts that are enough to tell.
     pub const ENOUGH: u64 = MOST as u64 / 2;
 
@@ -79,7 +79,7 @@ mod tests {
     fn every_part_has_the_mean_of_its_samples_though_pairs_are_joined() {
         let sample = |index: u64| [0.5 + index as f32, 7.0, libm::sqrtf(index as f32)];
         for parts_wanted in 1..=20 {
-            let (mut pixels, mut parts) = ([Pixel::default(); 3], Parts::of(3));
+            let (mut pixels, mut parts) = ([Pixel::default(); 3], Pilot::of(3));
             for _ in 0..parts_wanted {
                 parts.next_samples().for_each(|index| pixels.iter_mut().for_each(|pixel| pixel.add(sample(index))));
                 parts.look(&pixels);

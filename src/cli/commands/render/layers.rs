@@ -1,15 +1,13 @@
 //! What `spectrel render` writes beside the picture: AOVs into EXR files, bands of wavelength into spectral ones.
 
-use super::effort::EffortArgs;
-use super::memory;
+use crate::adaptive::{Aim, Noise, Pilot};
+use crate::cli::effort::EffortArgs;
+use crate::cli::memory;
+use crate::film::View;
 use crate::film::{Develop, Developed, FilmError, Layers, REPLICATES, Replicates, Wanted, Window};
 use crate::image::channels::FAR;
 use crate::image::{Channel, ExrSpace, Extra, Format, Metadata, spectral};
 use crate::render::{FirstHit, Guides, Kernel, Recorder, first_hits};
-use crate::report::View;
-use crate::report::noise::Noise;
-use crate::report::parts::Parts;
-use crate::report::plan::Aim;
 use crate::scene::{Needs, Scene, SceneError};
 use crate::spectrum::{Bins, Matrix3, RgbSpace};
 use clap::{Args, ValueEnum};
@@ -43,7 +41,7 @@ enum Aov {
 
 /// What is to be recorded, and what of it goes into files.
 #[derive(Clone, Debug)]
-pub struct Plan {
+pub struct Recording {
     aovs: Vec<Aov>,
     mirrors: bool,
     bins: Option<Bins>,
@@ -60,7 +58,7 @@ fn is_spectral(path: &Path) -> bool {
 
 impl LayerArgs {
     /// Fails if no file could hold what is asked for.
-    pub fn plan(&self, outputs: &[PathBuf], effort: &EffortArgs) -> Result<Plan, SceneError> {
+    pub fn recording(&self, outputs: &[PathBuf], effort: &EffortArgs) -> Result<Recording, SceneError> {
         let exr = |path: &&PathBuf| matches!(Format::of(path), Ok(Format::Exr));
         let (bands, plain): (Vec<_>, Vec<_>) = outputs.iter().filter(exr).partition(|path| is_spectral(path));
         let option = if self.denoise_inputs { "--denoise-inputs" } else { "--aovs" };
@@ -78,11 +76,11 @@ impl LayerArgs {
         }
         let bins = (!bands.is_empty()).then(|| self.spectral.unwrap_or_default());
         let aovs = if self.aovs.contains(&Aov::All) { Aov::value_variants().to_vec() } else { self.aovs.clone() };
-        Ok(Plan { aovs, mirrors: self.denoise_inputs, bins, judged: effort.judges(), aim: effort.shares_out() })
+        Ok(Recording { aovs, mirrors: self.denoise_inputs, bins, judged: effort.judges(), aim: effort.shares_out() })
     }
 }
 
-impl Plan {
+impl Recording {
     fn has(&self, aov: Aov) -> bool {
         self.aovs.contains(&aov)
             || (self.judged && aov == Aov::Noise)
@@ -112,7 +110,7 @@ impl Plan {
         }
         let channels = 3 * self.aovs.len() + self.wanted().bands;
         let a_pixel = self.wanted().bytes_per_pixel();
-        let parts = if self.aim.is_some() && !self.compares() { Parts::BYTES } else { 0 };
+        let parts = if self.aim.is_some() && !self.compares() { Pilot::BYTES } else { 0 };
         // One half is kept as it was while it judges the other one.
         let kept = if self.judged { a_pixel.div_ceil(2) } else { 0 };
         memory::check(window, a_pixel + parts + kept, channels)?;
@@ -124,8 +122,7 @@ impl Plan {
             true => Guides::behind_mirrors(scene, needs, RgbSpace::Srgb),
             false => Guides::first_hit(scene, needs, RgbSpace::Srgb),
         });
-        let recorder = Recorder::new(kernel, guides, self.bins.as_ref());
-        if self.aim.is_some() { recorder.in_halves() } else { recorder }
+        Recorder::new(kernel, guides, self.bins.as_ref())
     }
 
     /// What goes into a file beside the picture.

@@ -2,18 +2,19 @@
 //!
 //! In turn, so that what there is when a render ends early is as much of one variant as of another.
 
-use super::super::interrupt::Interrupt;
-use super::super::job::window;
-use super::super::progress::Shown;
-use crate::film::{Film, Pixel, fnv1a_64};
-use crate::render::{Kernel, render};
+use crate::adaptive::RenderLoop;
+use crate::cli::interrupt::Interrupt;
+use crate::cli::picture::window;
+use crate::cli::progress::Shown;
+use crate::film::{Film, Layers, Pixel, Wanted, fnv1a_64};
+use crate::render::{Kernel, Recorder};
 use crate::report::difference::Image;
 use crate::scene::{Needs, Scene, SceneError};
 use std::time::Instant;
 
 /// How much is rendered.
 #[derive(Clone, Debug)]
-pub struct Plan {
+pub struct Replication {
     /// What the seeds of the replicates come of.
     pub seed: u64,
     /// One a replicate.
@@ -31,7 +32,7 @@ pub struct Rendered {
     pub seconds: f64,
 }
 
-impl Plan {
+impl Replication {
     /// `samples` a pixel in as many equal replicates, rounded up.
     pub fn new(seed: u64, samples: u32, replicates: u16) -> Self {
         let seeds = (0..replicates).map(|r| fnv1a_64(format!("replicate {r} of seed {seed}").as_bytes())).collect();
@@ -45,48 +46,51 @@ impl Plan {
 
 impl Rendered {
     fn empty(scene: &Scene) -> Result<Self, SceneError> {
-        Ok(Self { film: empty_film(scene)?, replicates: Vec::new(), seconds: 0.0 })
+        let film = Film::new(size(scene), window(scene.settings.crop)).map_err(SceneError::new)?;
+        Ok(Self { film, replicates: Vec::new(), seconds: 0.0 })
     }
 }
 
 /// Renders all variants; fewer replicates of each if it is interrupted.
 pub fn render_all(
     scenes: &mut [Scene],
-    plan: &Plan,
+    replication: &Replication,
     progress: &Shown,
     interrupt: &Interrupt,
 ) -> Result<Vec<Rendered>, SceneError> {
     let mut all = scenes.iter().map(Rendered::empty).collect::<Result<Vec<_>, _>>()?;
-    for &seed in &plan.seeds {
+    for &seed in &replication.seeds {
         let mut replicate = Vec::with_capacity(scenes.len());
         for scene in scenes.iter_mut() {
             scene.settings.seed = seed;
             let started = Instant::now();
-            let film = render_one(scene, plan.samples, progress, interrupt)?;
-            replicate.push((film, started.elapsed().as_secs_f64()));
+            let layers = render_one(scene, replication.samples, progress, interrupt)?;
+            replicate.push((layers, started.elapsed().as_secs_f64()));
             if interrupt.stopped() {
                 return Ok(all);
             }
         }
-        for (rendered, (film, seconds)) in all.iter_mut().zip(replicate) {
-            rendered.film.merge(&film).map_err(SceneError::new)?;
-            rendered.replicates.push(image(&film));
+        for (rendered, (layers, seconds)) in all.iter_mut().zip(replicate) {
+            rendered.film.merge(layers.film()).map_err(SceneError::new)?;
+            rendered.replicates.push(image(layers.film()));
             rendered.seconds += seconds;
         }
     }
     Ok(all)
 }
 
-fn render_one(scene: &Scene, samples: u32, progress: &Shown, interrupt: &Interrupt) -> Result<Film, SceneError> {
-    let mut film = empty_film(scene)?;
+fn render_one(scene: &Scene, samples: u32, progress: &Shown, interrupt: &Interrupt) -> Result<Layers, SceneError> {
+    let mut layers =
+        Layers::new(size(scene), window(scene.settings.crop), Wanted::default()).map_err(SceneError::new)?;
     let needs = Needs::of(scene);
-    render(&Kernel::new(scene, &needs), &mut film, 0..u64::from(samples), progress, interrupt.flag());
-    Ok(film)
+    let kernel = Kernel::new(scene, &needs);
+    let recorder = Recorder::new(&kernel, None, None);
+    RenderLoop::new(&recorder, progress, interrupt.flag()).evenly(&mut layers, u64::from(samples));
+    Ok(layers)
 }
 
-fn empty_film(scene: &Scene) -> Result<Film, SceneError> {
-    let size = [scene.settings.width, scene.settings.height];
-    Film::new(size, window(scene.settings.crop)).map_err(SceneError::new)
+fn size(scene: &Scene) -> [u32; 2] {
+    [scene.settings.width, scene.settings.height]
 }
 
 fn image(film: &Film) -> Image {

@@ -4,15 +4,13 @@
 //! it and a reference of [`LEAST`] × as many samples are expected to end in time, by what the renders before it took. Ways that change
 //! several things are given up, from the last on, until all that are left get to [`GOAL`] counts.
 
-use super::super::effort::LEAST_SHARED;
-use super::super::job::{development, window};
-use super::super::work::Work;
 use super::clock::{Clock, Spent};
+use crate::adaptive::{Aim, Halves, LEAST_SHARED, RenderLoop, SharedLoop};
+use crate::cli::picture::{development, window};
 use crate::film::{Layers, Pixel, Wanted, fnv1a_64};
 use crate::render::{Kernel, PASS, Recorder, rays};
 use crate::report::bench::Renders;
 use crate::report::difference::Image;
-use crate::report::plan::Aim;
 use crate::scene::{Needs, Scene, SceneError};
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
@@ -61,7 +59,7 @@ struct Shot {
 
 /// What is to be rendered.
 #[derive(Clone, Debug)]
-pub struct Plan<'a> {
+pub struct Assignment<'a> {
     pub seed: u64,
     /// Samples a pixel, ascending.
     pub counts: &'a [u32],
@@ -86,7 +84,7 @@ pub struct Swept {
 }
 
 pub struct Sweep<'a> {
-    plan: &'a Plan<'a>,
+    assignment: &'a Assignment<'a>,
     /// Each with what its samples are shared out for.
     scenes: Vec<(Scene, Option<Aim>)>,
     costs: Vec<Cost>,
@@ -98,19 +96,19 @@ impl<'a> Sweep<'a> {
     /// The usual way first. Renders each once to see how long it takes; what there is no time to see is left out.
     pub fn begin(
         scenes: Vec<(Scene, Option<Aim>)>,
-        plan: &'a Plan,
+        assignment: &'a Assignment,
         tell: &'a dyn Fn(String),
     ) -> Result<Self, SceneError> {
-        let mut sweep = Self { plan, scenes, costs: Vec::new(), started: Instant::now(), tell };
+        let mut sweep = Self { assignment, scenes, costs: Vec::new(), started: Instant::now(), tell };
         let samples = sweep.first().min(PASS);
         // What only the first render of all pays is nobody's cost.
-        sweep.shoot(0, seed(plan.seed, "pilot", 0), samples)?;
+        sweep.shoot(0, seed(assignment.seed, "pilot", 0), samples)?;
         for way in 0..sweep.scenes.len() {
-            if way > 0 && sweep.left() < (1.0 - PILOT) * plan.time.as_secs_f64() {
+            if way > 0 && sweep.left() < (1.0 - PILOT) * assignment.time.as_secs_f64() {
                 sweep.scenes.truncate(way);
                 break;
             }
-            let shot = sweep.shoot(way, seed(plan.seed, "pilot", 0), samples)?;
+            let shot = sweep.shoot(way, seed(assignment.seed, "pilot", 0), samples)?;
             sweep.costs.push(cost(&shot, samples));
         }
         Ok(sweep)
@@ -120,7 +118,7 @@ impl<'a> Sweep<'a> {
         self.shorten();
         let mut renders = vec![Vec::new(); self.scenes.len()];
         let mut done = 0;
-        for (i, &samples) in self.plan.counts.iter().enumerate() {
+        for (i, &samples) in self.assignment.counts.iter().enumerate() {
             // The first one in any case: without it there is nothing to say.
             if i > 0 && self.level(samples) + self.least_reference(samples) > self.left() {
                 break;
@@ -129,24 +127,24 @@ impl<'a> Sweep<'a> {
             self.level_of_all(samples, &mut renders)?;
             done = i + 1;
         }
-        let (replicates, replicate_samples) = self.reference(self.plan.counts[done - 1])?;
-        Ok(Swept { renders, replicates, replicate_samples, counts_left_out: self.plan.counts[done..].to_vec() })
+        let (replicates, replicate_samples) = self.reference(self.assignment.counts[done - 1])?;
+        Ok(Swept { renders, replicates, replicate_samples, counts_left_out: self.assignment.counts[done..].to_vec() })
     }
 
     fn first(&self) -> u32 {
-        self.plan.counts[0]
+        self.assignment.counts[0]
     }
 
     /// Seconds until time is over.
     fn left(&self) -> f64 {
-        self.plan.time.as_secs_f64() - self.started.elapsed().as_secs_f64()
+        self.assignment.time.as_secs_f64() - self.started.elapsed().as_secs_f64()
     }
 
     /// Drops ways from the end: combinations until the first counts are expected to fit, others until the fewest samples are; the usual
     /// one stays.
     fn shorten(&mut self) {
-        let counts = self.plan.counts;
-        self.shorten_to(self.plan.singles, &counts[..GOAL.min(counts.len())]);
+        let counts = self.assignment.counts;
+        self.shorten_to(self.assignment.singles, &counts[..GOAL.min(counts.len())]);
         self.shorten_to(1, &counts[..1]);
     }
 
@@ -168,7 +166,7 @@ impl<'a> Sweep<'a> {
 
     /// Expected seconds of the least reference for so many samples.
     fn least_reference(&self, samples: u32) -> f64 {
-        match (self.plan.needs_reference, self.plan.reference) {
+        match (self.assignment.needs_reference, self.assignment.reference) {
             (false, _) => 0.0,
             (true, Some(asked)) => self.replicates(share(asked)),
             (true, None) => self.replicates(share(samples.saturating_mul(LEAST))),
@@ -183,7 +181,7 @@ impl<'a> Sweep<'a> {
         renders.iter_mut().for_each(|all| all.push(empty(samples)));
         for turn in 0..REPEATS {
             for (way, all) in renders.iter_mut().enumerate() {
-                let shot = self.shoot(way, seed(self.plan.seed, "turn", turn), samples)?;
+                let shot = self.shoot(way, seed(self.assignment.seed, "turn", turn), samples)?;
                 self.costs[way] = cost(&shot, samples);
                 all.last_mut().into_iter().for_each(|renders| add(renders, &shot));
             }
@@ -193,15 +191,16 @@ impl<'a> Sweep<'a> {
 
     /// Renders of the usual way with seeds of their own, and the samples of each: a power of two, unless asked for.
     fn reference(&mut self, largest: u32) -> Result<(Vec<Image>, u32), SceneError> {
-        if !self.plan.needs_reference {
+        if !self.assignment.needs_reference {
             return Ok((Vec::new(), 0));
         }
-        let samples = match self.plan.reference {
+        let samples = match self.assignment.reference {
             Some(asked) => share(asked),
             None => self.affordable(share(largest), share(largest.saturating_mul(MOST))),
         };
         (self.tell)(format!("the reference, {REPLICATES} × {samples} samples a pixel"));
-        let shots = (0..REPLICATES).map(|i| Ok(self.shoot(0, seed(self.plan.seed, "reference", i), samples)?.image));
+        let shots =
+            (0..REPLICATES).map(|i| Ok(self.shoot(0, seed(self.assignment.seed, "reference", i), samples)?.image));
         Ok((shots.collect::<Result<_, SceneError>>()?, samples))
     }
 
@@ -222,13 +221,19 @@ impl<'a> Sweep<'a> {
         let needs = Needs::of(scene);
         let kernel = Kernel::new(scene, &needs);
         let recorder = Recorder::new(&kernel, None, None);
-        let recorder = if aim.is_some() { recorder.in_halves() } else { recorder };
-        let work = Work { recorder: &recorder, progress: &(), cancel: &AtomicBool::new(false), quiet: true };
+        let cancel = AtomicBool::new(false);
         let (setup_seconds, before, clock) = (setup.spent().wall_seconds, rays_traced(), Clock::start());
-        match aim.filter(|_| samples >= LEAST_SHARED) {
-            None => work.evenly(&mut layers, u64::from(samples)),
+        match *aim {
+            None => RenderLoop::new(&recorder, &(), &cancel).evenly(&mut layers, u64::from(samples)),
             Some(aim) => {
-                work.shared(&mut layers, u64::from(samples), aim, &development(scene)).map_err(SceneError::new)?
+                let halves = Halves::of(recorder);
+                let render = SharedLoop::new(&halves, &(), &cancel);
+                match samples < LEAST_SHARED {
+                    true => render.plain().evenly(&mut layers, u64::from(samples)),
+                    false => render
+                        .shared(&mut layers, u64::from(samples), aim, &development(scene))
+                        .map_err(SceneError::new)?,
+                }
             }
         }
         let (spent, rays) = (clock.spent(), rays_traced() - before);

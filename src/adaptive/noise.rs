@@ -7,9 +7,8 @@
 //!   then know nothing of what they miss; their neighbours do.
 //! - RMSE: of linear sRGB, the mean of the channels' variances.
 
-use super::View;
-use super::parts::Parts;
-use crate::film::Replicates;
+use super::pilot::Pilot;
+use crate::film::{Replicates, View};
 use crate::spectrum::{Matrix3, Xyz, ciede2000_metric};
 use rayon::prelude::*;
 
@@ -47,10 +46,10 @@ impl Noise {
         Self::among(&all(replicates, view), width, view, 1.0, |at, other| at == other)
     }
 
-    /// Of each pixel by itself alone, as if parts were independent of each other. Together they err less, but enough is told to compare
+    /// Of each pixel by itself alone, as if parts of the pilot were independent of each other. Together they err less, but enough is told to compare
     /// pixels by.
-    pub fn of_parts(parts: &Parts, width: usize, view: &View) -> Self {
-        let pixels: Vec<_> = parts.means().map(|means| moments(means, view)).collect();
+    pub fn of_pilot(pilot: &Pilot, width: usize, view: &View) -> Self {
+        let pixels: Vec<_> = pilot.means().map(|means| moments(means, view)).collect();
         Self::among(&pixels, width, view, 1.0, |at, other| at == other)
     }
 
