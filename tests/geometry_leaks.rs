@@ -75,8 +75,8 @@ fn attack(solid: Convex, rays: usize) {
         };
         let target = if i % 2 == 0 { target } else { random.nudged(target) };
         // From a facet, its edges and vertices included, or from within.
-        let facet = &solid.facets()[random.below(solid.facets().len())];
-        let mut corner = || solid.vertices()[facet.corners[random.below(facet.corners.len())] as usize];
+        let facet = solid.corners(random.below(solid.facets().len()) as u32);
+        let mut corner = || solid.vertices()[facet[random.below(facet.len())] as usize];
         let (a, b, c) = (corner(), corner(), corner());
         let (u, v) = (random.unit(), random.unit());
         let origin = match i % 5 {
@@ -117,7 +117,7 @@ fn everywhere(solid: &Convex, rays: usize) {
             );
             attack(solid.transformed(&affine).unwrap(), rays / 3);
         }
-        attack(solid.transformed(&glam::Affine3A::from_scale(Vec3::splat(scale))).unwrap(), rays / 3);
+        attack(solid.copied(&glam::Affine3A::from_scale(Vec3::new(-scale, scale, 1.3 * scale))).unwrap(), rays / 3);
     }
 }
 

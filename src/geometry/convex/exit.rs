@@ -58,25 +58,16 @@ pub struct Exits<const N: usize> {
 /// nothing beside the smallest solid there is (1e-15), and among several such planes the one that the ray heads for most wins.
 pub(super) const TOUCHING: f32 = 1e-30;
 
-/// Width of the vectors of the processors that we build for.
-const VECTOR: usize = 8;
-
 /// Fewer rays than this are met one by one.
 const FEW: usize = 4;
 
-/// A plane with each of its numbers eight times over, to meet a vector of rays.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Spread {
-    x: [f32; VECTOR],
-    y: [f32; VECTOR],
-    z: [f32; VECTOR],
-    offset: [f32; VECTOR],
-}
-
-impl Spread {
-    pub fn new(normal: Vec3, offset: f32) -> Self {
-        Self { x: [normal.x; VECTOR], y: [normal.y; VECTOR], z: [normal.z; VECTOR], offset: [offset; VECTOR] }
-    }
+/// n·(p − centre) ≤ offset.
+#[derive(Clone, Copy)]
+struct Flat {
+    x: f32,
+    y: f32,
+    z: f32,
+    offset: f32,
 }
 
 /// Planes side by side, for one ray: `BLOCK` of them make a block.
@@ -93,6 +84,11 @@ pub(super) struct Block {
 
 impl Block {
     pub const EMPTY: Self = Self { x: [0.0; BLOCK], y: [0.0; BLOCK], z: [0.0; BLOCK], offset: [f32::INFINITY; BLOCK] };
+
+    #[inline(always)]
+    fn plane(&self, k: usize) -> Flat {
+        Flat { x: self.x[k], y: self.y[k], z: self.z[k], offset: self.offset[k] }
+    }
 }
 
 /// The exits of rays among the planes met so far.
@@ -107,12 +103,11 @@ struct Nearest<const N: usize> {
 
 impl<const N: usize> Nearest<N> {
     #[inline(always)]
-    fn meet(&mut self, number: u32, Spread { x, y, z, offset }: &Spread, o: &Points<N>, d: &Points<N>) {
+    fn meet(&mut self, number: u32, Flat { x, y, z, offset }: Flat, o: &Points<N>, d: &Points<N>) {
         let mut near = [0.0f32; N];
         for (lane, near) in near.iter_mut().enumerate() {
-            let k = lane % VECTOR;
-            let rate = x[k] * d.x[lane] + y[k] * d.y[lane] + z[k] * d.z[lane];
-            let room = offset[k] - (x[k] * o.x[lane] + y[k] * o.y[lane] + z[k] * o.z[lane]);
+            let rate = x * d.x[lane] + y * d.y[lane] + z * d.z[lane];
+            let room = offset - (x * o.x[lane] + y * o.y[lane] + z * o.z[lane]);
             *near = rate / if room > TOUCHING { room } else { TOUCHING };
         }
         let number = f32::from_bits(number);
@@ -151,7 +146,7 @@ impl Convex {
         match Bundle::new(&o, d, self.radius) {
             _ if N < FEW => {}
             Some(bundle) => self.possible_exits(&bundle, |number| {
-                if let Some(plane) = self.spread.get(number as usize) {
+                if let Some(plane) = self.plane(number) {
                     nearest.meet(number, plane, &o, d);
                 }
             }),
@@ -169,13 +164,21 @@ impl Convex {
     /// Meets planes until no more can be exits.
     #[inline]
     fn all_exits<const N: usize>(&self, nearest: &mut Nearest<N>, o: &Points<N>, d: &Points<N>) {
-        for (number, plane) in (0u32..).zip(&self.spread) {
-            let look = number >= FIRST_CHECK && number.is_multiple_of(CHECK_EVERY);
-            if look && within(o, d, &nearest.nearness, plane.offset[0]) {
+        for (block, planes) in (0u32..).step_by(BLOCK).zip(&self.blocks) {
+            let look = block >= FIRST_CHECK && block.is_multiple_of(CHECK_EVERY);
+            if look && within(o, d, &nearest.nearness, planes.offset[0]) {
                 break;
             }
-            nearest.meet(number, plane, o, d);
+            for k in 0..BLOCK {
+                nearest.meet(block + k as u32, planes.plane(k), o, d);
+            }
         }
+    }
+
+    #[inline]
+    fn plane(&self, number: u32) -> Option<Flat> {
+        let number = number as usize;
+        self.blocks.get(number / BLOCK).map(|block| block.plane(number % BLOCK))
     }
 
     /// One ray, several planes at once; bit for bit what [`Convex::exit_lanes`] gives.
@@ -209,7 +212,7 @@ impl Convex {
         (distance(best.0), self.facet_of(best.1))
     }
 
-    /// The facet of a plane in the order of `spread`.
+    /// The facet of a plane in the order of `blocks`.
     #[inline]
     fn facet_of(&self, plane: u32) -> u32 {
         self.order.get(plane as usize).copied().unwrap_or(0)
