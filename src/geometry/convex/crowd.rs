@@ -3,7 +3,7 @@
 //! Planes come in rounds, each twice as large as the one before and in the order of a curve through all directions (N. Amenta, S. Choi
 //! and G. Rote, "Incremental constructions con BRIO", SoCG 2003). So vertices that are stored beside each other lie beside each other,
 //! and a box around them tells whether a plane touches any. Faces none of whose corners it touches are not looked at. 20,000 planes
-//! around a ball take a fraction of a second instead of 40 s. Slots of what a plane cuts away are used again; a vertex that is gone is
+//! around a ball take less than a second instead of 40 s. Slots of what a plane cuts away are used again; a vertex that is gone is
 //! no number, and no plane touches it.
 
 use std::collections::HashMap;
