@@ -11,8 +11,9 @@ use divan::Bencher;
 use divan::counter::ItemsCount;
 use glam::{Affine3A, Vec3};
 use spectrel::geometry::{
-    Brilliant, Convex, Disk, Mesh, Placed, Points, Ray, Rectangle, Shape, ShapeId, Sphere, StepCut, Triangles, World,
+    Brilliant, Convex, Disk, Mesh, Placed, Ray, Rectangle, Shape, ShapeId, Sphere, StepCut, Triangles, World,
 };
+use spectrel::math::Vectors;
 
 fn main() {
     divan::main();
@@ -41,7 +42,7 @@ fn inner_rays(solid: &Convex) -> Vec<(Vec3, Vec3)> {
         .map(|_| {
             let toward = solid.center() + random.vector() * (0.3 * solid.radius());
             let exit =
-                solid.exit_lanes(&Points::<1>::splat(solid.center()), &Points::splat(random.vector().normalize()));
+                solid.exit_lanes(&Vectors::<1>::splat(solid.center()), &Vectors::splat(random.vector().normalize()));
             let origin = solid.project(solid.center() + random.vector() * 0.1, exit.facet[0]);
             (origin, (toward - origin).normalize())
         })
@@ -56,8 +57,8 @@ fn brilliant(girdle_facets: u32) -> Convex {
 fn exits<const N: usize>(bencher: Bencher, girdle_facets: u32) {
     let solid = brilliant(girdle_facets);
     let rays = inner_rays(&solid);
-    let packets: Vec<(Points<N>, Points<N>)> =
-        rays.chunks_exact(N).map(|c| (Points::from_fn(|i| c[i].0), Points::from_fn(|i| c[i].1))).collect();
+    let packets: Vec<(Vectors<N>, Vectors<N>)> =
+        rays.chunks_exact(N).map(|c| (Vectors::from_fn(|i| c[i].0), Vectors::from_fn(|i| c[i].1))).collect();
     bencher.counter(ItemsCount::new(RAYS)).bench(|| {
         let mut sum = 0;
         for (o, d) in black_box(&packets) {

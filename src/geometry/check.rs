@@ -31,7 +31,7 @@ pub(super) fn length(what: &'static str, value: f64) -> Result<(), GeometryError
 
 /// A transform in double precision. (Its own products are not used: they are vector code that may round differently
 /// between processors.)
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Transform {
     pub matrix: DMat3,
     pub translation: DVec3,

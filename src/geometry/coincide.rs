@@ -37,8 +37,8 @@ impl Shape {
             Shape::Sphere(_) => false,
             Shape::Rectangle(s) => flat(s.flat.center, s.flat.u, s.flat.v),
             Shape::Disk(s) => flat(s.flat.center, s.flat.u, s.flat.v),
-            Shape::Convex(s) => s.facets().iter().any(|facet| {
-                let corners = || facet.corners.iter().map(|&corner| s.vertices()[corner as usize]);
+            Shape::Convex(s) => (0..s.facets().len() as u32).any(|facet| {
+                let corners = || s.corners(facet).iter().map(|&corner| s.vertices()[corner as usize]);
                 Bounds::of(corners()).padded().meets(near)
                     && holds(&corners().map(|p| p.as_dvec3()).collect::<Vec<_>>())
             }),

@@ -5,7 +5,8 @@
 //! trees are: what a flat shape counts as met beyond its own edge, by rounding, may be missed.
 
 use super::ray::{ShapeId, sum_abs};
-use super::{Bounds, Points, World};
+use super::{Bounds, World};
+use crate::math::Vectors;
 
 /// In worlds of more shapes each ray goes its own way from the start.
 const FEW: usize = 8;
@@ -22,8 +23,8 @@ impl Few {
 
 /// What all box tests want to know of rays.
 struct Rays<'a, const N: usize> {
-    origins: &'a Points<N>,
-    inverse: Points<N>,
+    origins: &'a Vectors<N>,
+    inverse: Vectors<N>,
     /// How far the origins may be off.
     error: [f32; N],
 }
@@ -32,12 +33,12 @@ impl World {
     /// Which rays, whose origins are on a convex solid that they leave outwards, meet no other shape. A ray of which that is not sure
     /// is none of them; nor is one that is no number.
     #[inline]
-    pub fn escape<const N: usize>(&self, origins: &Points<N>, directions: &Points<N>, left: ShapeId) -> [bool; N] {
+    pub fn escape<const N: usize>(&self, origins: &Vectors<N>, directions: &Vectors<N>, left: ShapeId) -> [bool; N] {
         let Some(Few(boxes)) = &self.few else { return [false; N] };
         let finite = |lane: usize| sum_abs(origins.get(lane)) + sum_abs(directions.get(lane)) < f32::INFINITY;
         let mut escape = std::array::from_fn(finite);
         if boxes.len() > 1 {
-            let inverse = Points {
+            let inverse = Vectors {
                 x: directions.x.map(|d| 1.0 / d),
                 y: directions.y.map(|d| 1.0 / d),
                 z: directions.z.map(|d| 1.0 / d),
@@ -96,19 +97,19 @@ mod tests {
     }
 
     /// Eight rays a number, from the cube's sides outwards; every other bundle runs along the axes.
-    fn rays(number: u32) -> (Points<8>, Points<8>) {
+    fn rays(number: u32) -> (Vectors<8>, Vectors<8>) {
         let random = |lane: usize, of: u32| {
             let mixed = (number * 64 + lane as u32 * 8 + of).wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
             ((mixed ^ mixed >> 15).wrapping_mul(277_803_737) >> 8) as f32 / 16_777_216.0 - 0.5
         };
         let side = |lane: usize| (number as usize + lane) % 3;
         let sign = |lane: usize| if (number / 3).is_multiple_of(2) && lane < 5 { 1.0 } else { -1.0 };
-        let origins = Points::from_fn(|lane| {
+        let origins = Vectors::from_fn(|lane| {
             let mut origin = Vec3::from_array([0, 1, 2].map(|of| random(lane, of)));
             origin[side(lane)] = 0.5 * sign(lane);
             origin
         });
-        let directions = Points::from_fn(|lane| {
+        let directions = Vectors::from_fn(|lane| {
             let mut direction =
                 Vec3::from_array([3, 4, 5].map(|of| if number.is_multiple_of(2) { random(lane, of) } else { 0.0 }));
             direction[side(lane)] = (direction[side(lane)].abs() + 0.1) * sign(lane);

@@ -34,7 +34,7 @@ mod triangles;
 mod world;
 
 pub use bounds::Bounds;
-pub use convex::{Convex, Exits, Facet, Plane, Points};
+pub use convex::{Convex, Exits, Facet, Plane};
 pub use cuts::{Brilliant, StepCut};
 pub use disk::Disk;
 pub use error::GeometryError;

@@ -77,6 +77,14 @@ impl Shape {
         })
     }
 
+    /// The same to within rounding, but a copy shares with this shape what no map changes.
+    pub fn copied(&self, affine: &Affine3A) -> Result<Self, GeometryError> {
+        match self {
+            Shape::Convex(s) => Ok(s.copied(affine)?.into()),
+            _ => self.transformed(affine),
+        }
+    }
+
     /// Strictly inside a solid; never for flat shapes.
     pub fn contains(&self, point: Vec3) -> bool {
         match self {

@@ -2,7 +2,7 @@
 
 use super::media::MediaStack;
 use super::path::Path;
-use super::stone::{Entry, points};
+use super::stone::Entry;
 use super::vertex::{Beyond, Vertex};
 use super::{Tracer, rays};
 use crate::bsdf::dielectric::{reflect, refract, refract_lanes};
@@ -195,7 +195,7 @@ impl<const P: u32> Tracer<'_, P> {
             path.ray = ray(0);
             return ControlFlow::Continue(());
         }
-        let escapes = self.scene.world.escape(&exits.origins, &points(&exits.directions), entry.hit.shape);
+        let escapes = self.scene.world.escape(&exits.origins, &exits.directions, entry.hit.shape);
         for (lane, escapes) in escapes.into_iter().enumerate() {
             if escapes && path.throughput[lane] > 0.0 {
                 rays::count(1);

@@ -143,7 +143,7 @@ impl<const P: u32> Tracer<'_, P> {
                 break;
             }
             path.depth += 1;
-            let vertex = Vertex::new(path, (&hit, &also), self.medium(path));
+            let vertex = Vertex::new(&path.ray, (&hit, &also), self.medium(path), path.wavelengths);
             if self.interact(&vertex, path).is_break() || !path.survives() {
                 break;
             }

@@ -9,7 +9,7 @@ use super::Tracer;
 use super::path::Path;
 use crate::bsdf::dielectric::{reflect_lanes, refract_lanes};
 use crate::bsdf::{choose, keep_refracted};
-use crate::geometry::{Hit, Points, Shape};
+use crate::geometry::{Hit, Shape};
 use crate::math::{Lanes, Vectors};
 use crate::scene::{Interface, MediumId, Physics};
 
@@ -24,7 +24,7 @@ pub struct Entry<'a, const N: usize> {
 
 /// Where lanes leave a stone, and whereto.
 pub struct Exits<const N: usize> {
-    pub origins: Points<N>,
+    pub origins: Vectors<N>,
     pub directions: Vectors<N>,
 }
 
@@ -36,10 +36,10 @@ impl<const P: u32> Tracer<'_, P> {
         let inside = self.n(medium, path.wavelengths);
         let outside = self.n(entry.outside, path.wavelengths);
         let fresnel = self.boundary(model, medium, entry.outside, path.wavelengths);
-        let mut origins = Points::splat(entry.hit.point);
+        let mut origins = Vectors::splat(entry.hit.point);
         let mut directions = entry.directions;
         while path.depth < self.max_depth {
-            let exits = solid.exit_lanes(&origins, &points(&directions));
+            let exits = solid.exit_lanes(&origins, &directions);
             advance(&mut origins, &directions, &exits.t);
             self.absorb_each(path, medium, &exits.t);
             let normals = Vectors::from_fn(|lane| -solid.normal(exits.facet[lane]));
@@ -77,16 +77,11 @@ impl<const P: u32> Tracer<'_, P> {
 }
 
 #[inline]
-fn advance<const N: usize>(origins: &mut Points<N>, directions: &Vectors<N>, t: &[f32; N]) {
+fn advance<const N: usize>(origins: &mut Vectors<N>, directions: &Vectors<N>, t: &[f32; N]) {
     for (lane, t) in t.iter().enumerate() {
         origins.x[lane] += directions.x[lane] * t;
         origins.y[lane] += directions.y[lane] * t;
         origins.z[lane] += directions.z[lane] * t;
     }
 }
-
-/// The room of shapes knows no directions, only triples of lanes.
-#[inline]
-pub fn points<const N: usize>(directions: &Vectors<N>) -> Points<N> {
-    Points { x: directions.x, y: directions.y, z: directions.z }
 }

@@ -1,9 +1,8 @@
 //! A place where a path meets a surface, and the ways from there.
 
 use super::media::MediaStack;
-use super::path::Path;
 use crate::bsdf::{Bsdf, Scatters};
-use crate::geometry::{Departure, Hit, Side};
+use crate::geometry::{Departure, Hit, Ray, Side};
 use crate::math::Frame;
 use crate::scene::MediumId;
 use crate::spectrum::Wavelengths;
@@ -40,10 +39,15 @@ pub struct Way<'a> {
 
 impl<'a, const N: usize> Vertex<'a, N> {
     #[inline(always)]
-    pub fn new(path: &Path<'a, N>, (hit, also): (&'a Hit, &'a [Departure]), medium: MediumId) -> Self {
-        let back = -path.ray.direction;
+    pub fn new(
+        ray: &Ray,
+        (hit, also): (&'a Hit, &'a [Departure]),
+        medium: MediumId,
+        wavelengths: Wavelengths<'a, N>,
+    ) -> Self {
+        let back = -ray.direction;
         let frame = Frame::new(hit.facing(back));
-        Self { hit, also, frame, wo: frame.to_local(back), medium, wavelengths: path.wavelengths }
+        Self { hit, also, frame, wo: frame.to_local(back), medium, wavelengths }
     }
 
     /// Returns the way back to the side of ωo.

@@ -51,7 +51,7 @@ pub enum ColorSpaceName {
     Aces2065,
 }
 
-/// A picture on a surface (PNG, EXR or Radiance HDR), u to its right and v upwards. Spheres have u around z and v from bottom to top by
+/// A picture on a surface (PNG, JPEG, EXR or Radiance HDR), u to its right and v upwards. Spheres have u around z and v from bottom to top by
 /// angle, rectangles and disks the square around them. Between texels it is bilinear; smaller than pixels it is averaged by
 /// the samples of a pixel.
 #[derive(Debug, Deserialize)]
@@ -59,7 +59,7 @@ pub enum ColorSpaceName {
 pub struct ImageTexture {
     /// A file beside the scene file, or beside the material's own.
     pub image: Spanned<String>,
-    /// How numbers become colours: as the file says unless given; `srgb` for a PNG that says nothing, `linear` for the others.
+    /// How numbers become colours: as the file says unless given; `srgb` for a PNG or JPEG that says nothing, `linear` for the others.
     /// Roughness is data and has none.
     pub color_space: Option<Spanned<TextureSpaceName>>,
     /// How often the picture stands beside and above itself over u and v from 0 to 1; [1, 1] unless given.
@@ -77,13 +77,13 @@ pub enum TextureSpaceName {
     Srgb,
     /// In proportion to light; of sRGB primaries unless the file says others.
     Linear,
-    /// Codes of a PNG by the sRGB curve, primaries of Display P3; `p3` too.
+    /// Codes of a PNG or JPEG by the sRGB curve, primaries of Display P3; `p3` too.
     #[serde(alias = "p3")]
     DisplayP3,
-    /// Codes of a PNG by the curve of ITU-R BT.2020, and its primaries.
+    /// Codes of a PNG or JPEG by the curve of ITU-R BT.2020, and its primaries.
     #[serde(alias = "bt2020")]
     Rec2020,
-    /// Codes of a PNG by the power 2.2 (563/256), primaries of Adobe RGB (1998); `adobe` too.
+    /// Codes of a PNG or JPEG by the power 2.2 (563/256), primaries of Adobe RGB (1998); `adobe` too.
     #[serde(alias = "adobe")]
     AdobeRgb,
     /// In proportion to light, of AP1 with the white of ACES; `ap1` too.

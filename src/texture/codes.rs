@@ -1,4 +1,4 @@
-//! The codes of a PNG as its file has them: one or two bytes a channel, and what colours there are.
+//! The codes of a PNG or a JPEG as its file has them: one or two bytes a channel, and what colours there are.
 //!
 //! A picture has far more texels than colours. What is computed of a colour is kept once, and a texel keeps the number of its
 //! colour, in as few bytes as that takes.

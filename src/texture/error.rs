@@ -8,7 +8,7 @@ use thiserror::Error;
 
 #[derive(Debug, Error)]
 pub enum TextureError {
-    #[error("cannot tell the format of `{}`: the name must end in .exr, .hdr or .png", path.display())]
+    #[error("cannot tell the format of `{}`: the name must end in .exr, .hdr, .png or .jpg", path.display())]
     Extension { path: PathBuf },
     #[error("cannot read `{}`: {error}", path.display())]
     Open { path: PathBuf, error: io::Error },

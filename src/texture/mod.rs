@@ -1,4 +1,4 @@
-//! Pictures that come in: EXR, Radiance HDR and PNG as arrays of numbers, with what the file says of their meaning; and what
+//! Pictures that come in: EXR, Radiance HDR, PNG and JPEG as arrays of numbers, with what the file says of their meaning; and what
 //! such a picture shows where it lies on a surface (`texels`).
 //!
 //! A reader tells the size from the header before it takes memory, names the file in every error, and changes no value:
@@ -12,8 +12,10 @@ mod error;
 mod exr;
 mod hdr;
 mod icc;
+mod jpeg;
 mod png;
 mod raster;
+mod stated;
 mod texels;
 
 pub use codes::{Codes, Index};
@@ -32,6 +34,7 @@ pub fn read(path: &Path, beside: usize) -> Result<Raster, TextureError> {
         Some("exr") => exr::read,
         Some("hdr" | "pic") => hdr::read,
         Some("png") => png::read,
+        Some("jpg" | "jpeg") => jpeg::read,
         _ => return Err(TextureError::Extension { path: path.to_owned() }),
     };
     let unreadable = |error| TextureError::Open { path: path.to_owned(), error };

@@ -4,7 +4,8 @@
 //! edition, section 4.3). A gAMA of 1/2.2 is how files without the other chunks say sRGB, as they are viewed everywhere.
 
 use super::error::{Fault, array, room_for};
-use super::{Codes, Curve, Raster, Samples, code_points, icc};
+use super::stated::Stated;
+use super::{Codes, Curve, Raster, Samples, code_points};
 use crate::spectrum::{Chromaticities, RgbSpace};
 use png::{BitDepth, CodingIndependentCodePoints, ColorType, Decoder, DecodingError, Info, Limits};
 use png::{ScaledFloat, SourceChromaticities, Transformations};
@@ -57,14 +58,6 @@ fn bytes_a_texel(info: &Info, beside: usize) -> usize {
     }
 }
 
-/// What a file says of its colours.
-#[derive(Default)]
-struct Stated {
-    curves: Option<[Curve; 3]>,
-    chromaticities: Option<Chromaticities>,
-    notes: Vec<String>,
-}
-
 impl Stated {
     fn of(info: &Info) -> Self {
         if let Some(points) = &info.coding_independent_code_points {
@@ -78,10 +71,6 @@ impl Stated {
         }
         let curves = info.gama_chunk.map(|gamma| [(); 3].map(|()| power(gamma)));
         Self { curves, chromaticities: info.chrm_chunk.map(chromaticities), notes: Vec::new() }
-    }
-
-    fn in_space(curve: Curve, chromaticities: Option<Chromaticities>) -> Self {
-        Self { curves: Some([curve.clone(), curve.clone(), curve]), chromaticities, notes: Vec::new() }
     }
 
     fn by_number(points: &CodingIndependentCodePoints) -> Self {
@@ -101,18 +90,6 @@ impl Stated {
             notes.push("its chunk cICP says that black and white are not its first and last code: taken as if".into());
         }
         Self { notes, ..Self::in_space(known.unwrap_or(Curve::Srgb), chromaticities) }
-    }
-
-    fn by_profile(profile: &[u8]) -> Self {
-        match icc::read(profile) {
-            Some(icc::Profile { curves, chromaticities }) => {
-                Self { curves: Some(curves), chromaticities, notes: Vec::new() }
-            }
-            None => {
-                let note = "its colour profile is of a kind that is not read, other than three primaries and curves: taken for sRGB";
-                Self { notes: vec![note.into()], ..Self::default() }
-            }
-        }
     }
 }
 

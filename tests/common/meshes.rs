@@ -6,8 +6,8 @@ use std::collections::HashMap;
 
 /// A solid's facets as fans of triangles.
 pub fn of_convex(solid: &Convex) -> Triangles {
-    let fans = solid.facets().iter().flat_map(|facet| {
-        let corners = &facet.corners;
+    let fans = (0..solid.facets().len() as u32).flat_map(|facet| {
+        let corners = solid.corners(facet);
         (1..corners.len() - 1).map(|k| [corners[0], corners[k], corners[k + 1]])
     });
     Triangles { positions: solid.vertices().to_vec(), indices: fans.collect(), ..Triangles::default() }

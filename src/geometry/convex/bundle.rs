@@ -11,7 +11,8 @@
 //! is nobody's exit. δ and ε hold what rounding may add to both, so that the planes left over give every ray its exit to the bit.
 
 use super::Convex;
-use super::planes::{BLOCK, Block, CHECK_EVERY, FIRST_CHECK, Points, TOUCHING};
+use super::planes::{BLOCK, Block, CHECK_EVERY, FIRST_CHECK, TOUCHING};
+use crate::math::Vectors;
 use glam::Vec3;
 
 /// Vectors farther apart than this are met by all planes: too many would be left over.
@@ -30,7 +31,7 @@ pub(super) struct Bundle {
 impl Bundle {
     /// Rays by origins from the centre of a solid; none if they are far apart, infinite or no numbers.
     #[inline]
-    pub fn new<const N: usize>(o: &Points<N>, d: &Points<N>, radius: f32) -> Option<Self> {
+    pub fn new<const N: usize>(o: &Vectors<N>, d: &Vectors<N>, radius: f32) -> Option<Self> {
         let (origin, direction) = (o.get(N / 2), d.get(N / 2));
         let apart = farthest(d, direction);
         let near = apart < APART;
@@ -63,7 +64,7 @@ impl Bundle {
 
 /// The largest distance of points from one; infinite if one is no number.
 #[inline]
-fn farthest<const N: usize>(points: &Points<N>, from: Vec3) -> f32 {
+fn farthest<const N: usize>(points: &Vectors<N>, from: Vec3) -> f32 {
     let mut squared = [0.0f32; N];
     for (lane, squared) in squared.iter_mut().enumerate() {
         let (x, y, z) = (points.x[lane] - from.x, points.y[lane] - from.y, points.z[lane] - from.z);

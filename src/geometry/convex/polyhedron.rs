@@ -5,6 +5,7 @@
 
 use glam::DVec3;
 
+use super::crowd::{self, CROWD};
 use crate::geometry::GeometryError;
 
 /// The half-space `normal`·x ≤ `offset`.
@@ -25,7 +26,7 @@ impl Plane {
     }
 
     /// The same half-space with a unit normal.
-    fn normalised(&self) -> Option<Self> {
+    pub(super) fn normalised(&self) -> Option<Self> {
         // Twice, because the square of a very long or short normal leaves the range of numbers.
         let scale = self.normal.abs().max_element();
         if !(scale > 0.0 && scale.is_finite() && self.offset.is_finite()) {
@@ -37,7 +38,7 @@ impl Plane {
         (plane.normal.is_finite() && plane.offset.is_finite()).then_some(plane)
     }
 
-    fn height(&self, point: DVec3) -> f64 {
+    pub(super) fn height(&self, point: DVec3) -> f64 {
         self.normal.dot(point) - self.offset
     }
 }
@@ -85,14 +86,14 @@ impl Polyhedron {
 /// A cube's face while cutting goes on, beyond all plane numbers.
 const CUBE: usize = usize::MAX;
 
-struct Cutter {
-    vertices: Vec<DVec3>,
-    faces: Vec<Face>,
-    tolerance: f64,
+pub(super) struct Cutter {
+    pub vertices: Vec<DVec3>,
+    pub faces: Vec<Face>,
+    pub tolerance: f64,
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum Place {
+pub(super) enum Place {
     In,
     On,
     Out,
@@ -100,17 +101,22 @@ enum Place {
 
 impl Cutter {
     fn run(planes: &[Plane], center: DVec3, half: f64, size: f64) -> Result<Self, GeometryError> {
-        let mut cutter = Self::cube(center, half, TOLERANCE * size);
-        for (index, plane) in planes.iter().enumerate() {
-            cutter.cut(plane, index);
-            if cutter.faces.len() < 4 {
-                return Err(GeometryError::NoVolume);
-            }
-        }
+        let cube = Self::cube(center, half, TOLERANCE * size);
+        let cutter = if planes.len() > CROWD { crowd::cut(cube, planes)? } else { cube.cut_by(planes)? };
         if cutter.faces.iter().any(|f| f.plane == CUBE) {
             return Err(GeometryError::NoVolume);
         }
         Ok(cutter)
+    }
+
+    fn cut_by(mut self, planes: &[Plane]) -> Result<Self, GeometryError> {
+        for (index, plane) in planes.iter().enumerate() {
+            self.cut(plane, index);
+            if self.faces.len() < 4 {
+                return Err(GeometryError::NoVolume);
+            }
+        }
+        Ok(self)
     }
 
     fn cube(center: DVec3, half: f64, tolerance: f64) -> Self {
@@ -181,28 +187,15 @@ impl Cutter {
             }
         }
         if rim.len() >= 3 {
-            self.sort_around(&mut rim, plane.normal);
+            sort_around(|corner| self.vertices[corner], &mut rim, plane.normal);
             kept.push(Face { plane: index, corners: rim });
         }
         self.faces = kept;
         self.compact();
     }
 
-    /// The corners of a convex polygon in their order around the normal.
-    fn sort_around(&self, corners: &mut [usize], normal: DVec3) {
-        let mean = corners.iter().map(|&c| self.vertices[c]).sum::<DVec3>() / corners.len() as f64;
-        let axis = if normal.x.abs() < 0.6 { DVec3::X } else { DVec3::Y };
-        let u = normal.cross(axis).normalize_or_zero();
-        let v = normal.cross(u);
-        let angle = |c: usize| {
-            let w = self.vertices[c] - mean;
-            libm::atan2(w.dot(v), w.dot(u))
-        };
-        corners.sort_by(|&a, &b| angle(a).total_cmp(&angle(b)));
-    }
-
     /// Forgets vertices that no face uses.
-    fn compact(&mut self) {
+    pub(super) fn compact(&mut self) {
         let mut renamed = vec![usize::MAX; self.vertices.len()];
         let mut vertices = Vec::new();
         for corner in self.faces.iter_mut().flat_map(|f| f.corners.iter_mut()) {
@@ -219,9 +212,7 @@ impl Cutter {
     /// still bears a face is kept.
     fn finish(mut self, planes: &[Plane], radius: f64) -> Result<Polyhedron, GeometryError> {
         let near = 100.0 * TOLERANCE * radius;
-        let first: Vec<usize> = (0..self.vertices.len())
-            .map(|i| (0..i).find(|&j| (self.vertices[i] - self.vertices[j]).length() <= near).unwrap_or(i))
-            .collect();
+        let first = first_near(&self.vertices, near);
         for face in &mut self.faces {
             for corner in &mut face.corners {
                 *corner = first[*corner];
@@ -255,6 +246,27 @@ impl Cutter {
     }
 }
 
+/// Of each vertex the first one that is no farther from it than `near`: itself, or one before it.
+fn first_near(vertices: &[DVec3], near: f64) -> Vec<usize> {
+    if vertices.len() > CROWD {
+        return crowd::first_near(vertices, near);
+    }
+    (0..vertices.len()).map(|i| (0..i).find(|&j| (vertices[i] - vertices[j]).length() <= near).unwrap_or(i)).collect()
+}
+
+/// The corners of a convex polygon in their order around the normal.
+pub(super) fn sort_around(vertex: impl Fn(usize) -> DVec3, corners: &mut [usize], normal: DVec3) {
+    let mean = corners.iter().map(|&c| vertex(c)).sum::<DVec3>() / corners.len() as f64;
+    let axis = if normal.x.abs() < 0.6 { DVec3::X } else { DVec3::Y };
+    let u = normal.cross(axis).normalize_or_zero();
+    let v = normal.cross(u);
+    let angle = |c: usize| {
+        let w = vertex(c) - mean;
+        libm::atan2(w.dot(v), w.dot(u))
+    };
+    corners.sort_by(|&a, &b| angle(a).total_cmp(&angle(b)));
+}
+
 /// Area of a plane polygon.
 pub(super) fn area(vertices: &[DVec3], corners: &[usize]) -> f64 {
     let fan = corners.windows(2).map(|pair| {
@@ -262,4 +274,98 @@ pub(super) fn area(vertices: &[DVec3], corners: &[usize]) -> f64 {
         (b - a).cross(c - a)
     });
     0.5 * fan.sum::<DVec3>().length()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn solids(planes: &[Plane]) -> [Polyhedron; 2] {
+        let unit: Vec<Plane> = planes.iter().map(|plane| plane.normalised().expect("a normal")).collect();
+        let cube = || Cutter::cube(DVec3::ZERO, 4.0, TOLERANCE);
+        let all = [cube().cut_by(&unit), crowd::cut(cube(), &unit)];
+        all.map(|cutter| cutter.and_then(|cutter| cutter.finish(&unit, 1.0)).expect("a solid"))
+    }
+
+    fn agree(planes: &[Plane]) {
+        let [one, other] = solids(planes);
+        assert_eq!(one.sources, other.sources);
+        assert_eq!(one.vertices.len(), other.vertices.len());
+        for (a, b) in one.faces.iter().zip(&other.faces) {
+            let corners = |solid: &Polyhedron, face: &Face| -> Vec<DVec3> {
+                face.corners.iter().map(|&corner| solid.vertices[corner]).collect()
+            };
+            let (a, b) = (corners(&one, a), corners(&other, b));
+            assert_eq!(a.len(), b.len());
+            let from = b.iter().position(|corner| corner.distance(a[0]) < 1e-9).expect("the same corner");
+            assert!(a.iter().zip(b.iter().cycle().skip(from)).all(|(a, b)| a.distance(*b) < 1e-9));
+        }
+        let edges: usize = other.faces.iter().map(|face| face.corners.len()).sum::<usize>() / 2;
+        assert_eq!(other.vertices.len() + other.faces.len(), edges + 2, "Euler");
+    }
+
+    fn on_sphere(count: usize) -> impl Iterator<Item = DVec3> {
+        (0..count).map(move |i| {
+            let z = 1.0 - (2 * i + 1) as f64 / count as f64;
+            let (sin, cos) = libm::sincos(i as f64 * 2.399_963_229_728_653);
+            let across = (1.0 - z * z).sqrt();
+            DVec3::new(across * cos, across * sin, z)
+        })
+    }
+
+    /// Both ways to cut give one solid: planes at random and at all depths, around a ball, and many of them through a point.
+    #[test]
+    fn crowds_of_planes_are_cut_as_few_are() {
+        let mut state = 7u64;
+        let mut random = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1u64 << 53) as f64
+        };
+        for depth in [0.05, 0.5] {
+            let planes: Vec<Plane> = (0..600)
+                .map(|_| [(); 4].map(|()| random()))
+                .map(|[x, y, z, far]| (DVec3::new(x - 0.5, y - 0.5, z - 0.5), 1.0 + depth * far))
+                .map(|(normal, far)| Plane::new(normal, normal.length() * far))
+                .collect();
+            agree(&planes);
+        }
+        let ball: Vec<Plane> = on_sphere(600).map(|normal| Plane::new(normal, 1.0)).collect();
+        agree(&ball);
+        // Two cones point to point with their bases cut off by a box: 300 planes through each tip, and all of them twice.
+        let cone = |tip: f64| {
+            (0..300).map(move |i| {
+                let (sin, cos) = libm::sincos(f64::from(i) * std::f64::consts::TAU / 300.0);
+                Plane::through(DVec3::Z * tip, DVec3::new(cos, sin, tip))
+            })
+        };
+        let planes: Vec<Plane> = cone(0.8).chain(cone(-0.8)).chain(cone(0.8)).collect();
+        agree(&planes);
+        // Steps like those of a gem: many planes through one vertex on a ring.
+        let ring = (0..600).map(|i| {
+            let (sin, cos) = libm::sincos(f64::from(i / 3) * std::f64::consts::TAU / 200.0);
+            let up = [-1.0, 0.0, 1.0][i as usize % 3];
+            Plane::through(DVec3::new(cos, sin, 0.0), DVec3::new(cos, sin, up))
+        });
+        agree(&ring.collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn vertices_that_are_one_are_found_in_cells() {
+        let mut points: Vec<DVec3> = on_sphere(700).map(|p| (p * 40.0).round() / 40.0).collect();
+        points.extend(on_sphere(700).map(|p| (p * 40.0).round() / 40.0 + DVec3::splat(4e-4)));
+        let slow: Vec<usize> = (0..points.len())
+            .map(|i| (0..i).find(|&j| (points[i] - points[j]).length() <= 1e-3).unwrap_or(i))
+            .collect();
+        assert!(slow.iter().enumerate().any(|(i, &first)| first < i) && slow.iter().enumerate().any(|(i, &f)| f == i));
+        assert_eq!(crowd::first_near(&points, 1e-3), slow);
+    }
+
+    #[test]
+    fn crowds_of_planes_that_close_nothing_are_errors() {
+        let half: Vec<Plane> = on_sphere(2000).filter(|n| n.z > 0.0).map(|normal| Plane::new(normal, 1.0)).collect();
+        assert!(half.len() > CROWD);
+        assert_eq!(Polyhedron::new(&half), Err(GeometryError::NoVolume), "open");
+        let away: Vec<Plane> = on_sphere(2000).map(|normal| Plane::new(normal, -1.0)).collect();
+        assert_eq!(Polyhedron::new(&away), Err(GeometryError::NoVolume), "empty");
+    }
 }

@@ -20,9 +20,10 @@ pub(super) fn sample(solid: &Convex, reference: Vec3, u: [f32; 2]) -> Option<Tow
     let (sees, area) = seen(solid, reference);
     let (index, facet, rest) =
         pick(u[0] * area, solid.facets().iter().enumerate().filter(|(_, f)| sees(f)).map(|(i, f)| (i, f, f.area)))?;
-    let vertex = |k: usize| facet.corners.get(k).and_then(|&c| solid.vertices().get(c as usize)).copied();
+    let corners = solid.corners(index as u32);
+    let vertex = |k: usize| corners.get(k).and_then(|&c| solid.vertices().get(c as usize)).copied();
     let a = vertex(0)?;
-    let triangles = (1..facet.corners.len() - 1).filter_map(|k| {
+    let triangles = (1..corners.len().saturating_sub(1)).filter_map(|k| {
         let (b, c) = (vertex(k)?, vertex(k + 1)?);
         Some((k, (b, c), 0.5 * (b - a).cross(c - a).length()))
     });

@@ -4,11 +4,11 @@ use super::Resolver;
 use super::bodies::Origin;
 use super::emission::Resolved;
 use super::shapes::affine;
-use crate::geometry::{Shape, ShapeId};
+use crate::geometry::{GeometryError, Shape, ShapeId};
 use crate::light::{Emitter, Source};
 use crate::scene::describe;
 use crate::scene::{Inside, Object, SceneError, Surface};
-use glam::DVec3;
+use glam::{Affine3A, DVec3};
 use std::collections::{BTreeMap, BTreeSet};
 use toml::Spanned;
 
@@ -103,7 +103,10 @@ impl Resolver<'_> {
     fn standing(&mut self, object: &describe::Object, mut pieces: Vec<Piece>) -> Result<Vec<Piece>, SceneError> {
         let [_, of_transform, of_copies] = self.origins(object);
         if let Some(transform) = &object.transform {
-            pieces = pieces.iter().map(|piece| self.moved(piece, transform, of_transform)).collect::<Result<_, _>>()?;
+            pieces = pieces
+                .iter()
+                .map(|piece| self.moved(piece, transform, of_transform, Shape::transformed))
+                .collect::<Result<_, _>>()?;
         }
         if object.copies.is_empty() {
             return Ok(pieces);
@@ -111,7 +114,7 @@ impl Resolver<'_> {
         let mut copies = Vec::with_capacity(pieces.len() * object.copies.len());
         for (number, place) in (1..).zip(&object.copies) {
             for piece in &pieces {
-                let copy = self.moved(piece, place, of_copies)?;
+                let copy = self.moved(piece, place, of_copies, Shape::copied)?;
                 copies.push(Piece { name: format!("{} #{number}", piece.name), ..copy });
             }
         }
@@ -124,9 +127,10 @@ impl Resolver<'_> {
         piece: &Piece,
         transform: &Spanned<describe::Transform>,
         origin: DVec3,
+        to: impl Fn(&Shape, &Affine3A) -> Result<Shape, GeometryError>,
     ) -> Result<Piece, SceneError> {
         let affine = affine(transform.get_ref(), origin);
-        let shape = piece.shape.transformed(&affine).map_err(|error| self.text.error(&transform.span(), error))?;
+        let shape = to(&piece.shape, &affine).map_err(|error| self.text.error(&transform.span(), error))?;
         self.note_rounding(&piece.name, &shape);
         Ok(Piece { shape, ..piece.clone() })
     }

@@ -75,9 +75,9 @@ impl Resolver<'_> {
 /// Ranks dielectrics: by priority, then the smaller before the larger, then the later one.
 fn rank(world: &World, objects: &mut [Object], refracts: impl Fn(&Object) -> bool) {
     let mut order: Vec<usize> = (0..objects.len()).filter(|&index| refracts(&objects[index])).collect();
-    let volume = |index: usize| world.shapes()[index].volume();
+    let volumes: Vec<f64> = world.shapes().iter().map(Shape::volume).collect();
     order.sort_by(|&a, &b| {
-        let by_size = || volume(b).total_cmp(&volume(a));
+        let by_size = || volumes[b].total_cmp(&volumes[a]);
         objects[a].priority.cmp(&objects[b].priority).then_with(by_size).then(a.cmp(&b))
     });
     for (rank, index) in (1..).zip(order) {
@@ -108,10 +108,11 @@ fn points(shape: &Shape) -> Vec<Vec3> {
     let from = shape.bounds().center();
     match shape {
         Shape::Convex(solid) => {
-            let mean = |f: &crate::geometry::Facet| {
-                f.corners.iter().map(|&corner| solid.vertices()[corner as usize]).sum::<Vec3>() / f.corners.len() as f32
+            let mean = |facet: u32| {
+                let corners = solid.corners(facet);
+                corners.iter().map(|&corner| solid.vertices()[corner as usize]).sum::<Vec3>() / corners.len() as f32
             };
-            solid.vertices().iter().copied().chain(solid.facets().iter().map(mean)).collect()
+            solid.vertices().iter().copied().chain((0..solid.facets().len() as u32).map(mean)).collect()
         }
         Shape::Mesh(placed) => placed.some_corners(POINTS).collect(),
         _ => (0..POINTS).filter_map(|i| on_sphere(shape, from, i)).collect(),

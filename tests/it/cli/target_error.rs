@@ -356,6 +356,29 @@ fn the_command_says_what_was_asked_and_what_was_reached() {
     assert!(both.contains("warning: stopped before"), "{both}");
 }
 
+/// A lamp much smaller than a pixel before a sky without noise: its few samples are all the error there is.
+#[test]
+fn a_render_says_that_few_samples_decide_about_its_error() {
+    let sky = "[render]\nwidth = 100\nheight = 100\n[camera]\nposition = [0, -6, 0]\nlook_at = [0, 0, 0]\nfov = 30\n\
+        [picture]\nexposure = 6\n[environment.constant]\nspectrum = \"D65\"\nluminance = 50\n";
+    let ball = |radius: f64| {
+        format!(
+            "{sky}[[objects]]\nshape.sphere = {{ radius = {radius}, center = [0.011, 0, 0.013] }}\n\
+             emission = {{ spectrum = \"D65\", luminance = 3000 }}\n"
+        )
+    };
+    let folder = folder(&[("small.toml", &ball(0.005)), ("large.toml", &ball(0.5))]);
+    let said = |scene: &str| {
+        let output = run(folder.path(), &[scene, "-o", "a.exr", "--target-error", "rmse=0.01", "--spp", "256"]);
+        String::from_utf8(output.stderr).expect("text")
+    };
+    let words = "hold half of the squared error: a few bright samples decide it";
+    let small = said("small.toml");
+    assert!(small.contains(words) || small.contains(&words.replace("hold ", "holds ")), "{small}");
+    let large = said("large.toml");
+    assert!(!large.contains("half of the squared error"), "{large}");
+}
+
 #[test]
 fn targets_that_make_no_sense_are_refused() {
     let folder = folder(&[("a.toml", SCENE)]);

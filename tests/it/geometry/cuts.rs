@@ -15,14 +15,14 @@ fn slope(facet: &Facet) -> f32 {
 fn check_closed(solid: &Convex) {
     let (v, e, f) = (solid.vertices().len(), solid.edges().len(), solid.facets().len());
     assert_eq!(v + f, e + 2);
-    let sides: usize = solid.facets().iter().map(|f| f.corners.len()).sum();
+    let sides: usize = (0..f as u32).map(|facet| solid.corners(facet).len()).sum();
     assert_eq!(sides, 2 * e);
     // Areas as vectors sum to zero on a closed surface.
     let sum: Vec3 = solid.facets().iter().map(|f| f.normal * f.area).sum();
     assert!(sum.length() < 1e-6 * solid.area(), "{sum}");
-    for facet in solid.facets() {
+    for (number, facet) in (0..).zip(solid.facets()) {
         assert!(facet.area > 0.0);
-        for &corner in &facet.corners {
+        for &corner in solid.corners(number) {
             let height = facet.normal.dot(solid.vertices()[corner as usize] - solid.center()) - facet.offset;
             assert!(height.abs() < 1e-6 * solid.radius());
         }
@@ -73,8 +73,8 @@ fn brilliant_proportions_come_back_from_its_vertices() {
     let near = |a: f32, b: f64| assert!((a as f64 - b).abs() < 2e-6 * cut.diameter, "{a} {b}");
     let plan = |v: &Vec3| (v.x * v.x + v.y * v.y).sqrt();
     let corners = |facets: std::ops::Range<usize>| {
-        let facets = solid.facets()[facets].iter();
-        facets.flat_map(|f| f.corners.iter().map(|&c| solid.vertices()[c as usize])).collect::<Vec<_>>()
+        let corners = facets.flat_map(|facet| solid.corners(facet as u32));
+        corners.map(|&corner| solid.vertices()[corner as usize]).collect::<Vec<_>>()
     };
     near(solid.bounds().size().x, cut.diameter);
     near(solid.bounds().min.z, 0.0);
@@ -149,9 +149,9 @@ fn step_cut_has_its_steps() {
     };
     same(slopes(true), &[0.0, 33.0, 40.0, 47.0]);
     same(slopes(false), &[41.0, 48.0, 55.0]);
-    let table = solid.facets().iter().find(|f| f.normal.z > 0.9999).unwrap();
-    assert_eq!(table.corners.len(), 8);
-    let across: Vec<f32> = table.corners.iter().map(|&c| solid.vertices()[c as usize].y).collect();
+    let table = solid.corners(solid.facets().iter().position(|f| f.normal.z > 0.9999).unwrap() as u32);
+    assert_eq!(table.len(), 8);
+    let across: Vec<f32> = table.iter().map(|&c| solid.vertices()[c as usize].y).collect();
     let width = across.iter().fold(0.0f32, |m, y| m.max(*y)) * 2.0;
     assert!((width - 0.6).abs() < 1e-6);
     assert!(StepCut { crown_angles: [30.0, 40.0, 20.0], ..cut }.solid().err().unwrap().to_string().contains("crown"));

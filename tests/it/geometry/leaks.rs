@@ -8,9 +8,9 @@ use crate::common::random::Random;
 use glam::{Affine3A, DVec3, Quat, Vec3};
 use rayon::prelude::*;
 use spectrel::geometry::{
-    Brilliant, Convex, Departure, Mesh, Placed, Plane, Points, Ray, Shape, ShapeId, Side, Sphere, StepCut, Triangles,
-    World,
+    Brilliant, Convex, Departure, Mesh, Placed, Plane, Ray, Shape, ShapeId, Side, Sphere, StepCut, Triangles, World,
 };
+use spectrel::math::Vectors;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -56,7 +56,7 @@ fn outside(solid: &Convex, point: Vec3) -> f32 {
 fn attack(solid: Convex, rays: usize) {
     let world = World::new(vec![solid.clone().into()]).unwrap();
     let mut random = Random(1);
-    let (mut origins, mut directions) = (Points::<8>::splat(Vec3::ZERO), Points::<8>::splat(Vec3::Z));
+    let (mut origins, mut directions) = (Vectors::<8>::splat(Vec3::ZERO), Vectors::<8>::splat(Vec3::Z));
     let mut expected = solid.exit_lanes(&origins, &directions);
     let reach = solid.center().abs().max_element() / solid.radius();
     for i in 0..rays {
@@ -69,8 +69,8 @@ fn attack(solid: Convex, rays: usize) {
         };
         let target = if i % 2 == 0 { target } else { random.nudged(target) };
         // From a facet, its edges and vertices included, or from within.
-        let facet = &solid.facets()[random.below(solid.facets().len())];
-        let mut corner = || solid.vertices()[facet.corners[random.below(facet.corners.len())] as usize];
+        let facet = solid.corners(random.below(solid.facets().len()) as u32);
+        let mut corner = || solid.vertices()[facet[random.below(facet.len())] as usize];
         let (a, b, c) = (corner(), corner(), corner());
         let (u, v) = (random.unit(), random.unit());
         let origin = match i % 5 {
@@ -111,7 +111,7 @@ fn everywhere(solid: &Convex, rays: usize) {
             );
             attack(solid.transformed(&affine).unwrap(), rays / 3);
         }
-        attack(solid.transformed(&glam::Affine3A::from_scale(Vec3::splat(scale))).unwrap(), rays / 3);
+        attack(solid.copied(&glam::Affine3A::from_scale(Vec3::new(-scale, scale, 1.3 * scale))).unwrap(), rays / 3);
     }
 }
 
@@ -163,8 +163,8 @@ fn sphere() {
 fn light_that_bounces_for_long_stays_inside() {
     let solid = Brilliant::default().solid().unwrap();
     let mut random = Random(5);
-    let mut origins = Points::<8>::splat(solid.center());
-    let mut directions = Points::<8>::from_fn(|i| Vec3::new(i as f32 - 3.3, 1.7, -2.1).normalize());
+    let mut origins = Vectors::<8>::splat(solid.center());
+    let mut directions = Vectors::<8>::from_fn(|i| Vec3::new(i as f32 - 3.3, 1.7, -2.1).normalize());
     for _ in 0..20_000 {
         let exits = solid.exit_lanes(&origins, &directions);
         for lane in 0..8 {
@@ -193,7 +193,7 @@ fn rays_beside_each_other_leave_where_each_would_alone() {
             let [a, b] = solid.edges()[random.below(solid.edges().len())].map(|v| solid.vertices()[v as usize]);
             let (from, to) = (a + (b - a) * random.unit(), if i % 2 == 0 { corner } else { a });
             let middle = if i % 3 == 0 { from } else { solid.center() + (from - solid.center()) * random.unit() };
-            let (mut origins, mut directions) = (Points::<8>::splat(middle), Points::<8>::splat(Vec3::Z));
+            let (mut origins, mut directions) = (Vectors::<8>::splat(middle), Vectors::<8>::splat(Vec3::Z));
             for lane in 0..8 {
                 let moved = middle + (solid.center() - middle) * (spread * random.unit());
                 origins.set(lane, if i % 5 == 0 { middle } else { moved });
@@ -202,7 +202,8 @@ fn rays_beside_each_other_leave_where_each_would_alone() {
             }
             let exits = solid.exit_lanes(&origins, &directions);
             for lane in 0..8 {
-                let (origin, direction) = (Points::<1>::splat(origins.get(lane)), Points::splat(directions.get(lane)));
+                let (origin, direction) =
+                    (Vectors::<1>::splat(origins.get(lane)), Vectors::splat(directions.get(lane)));
                 let alone = solid.exit_lanes(&origin, &direction);
                 assert_eq!((exits.t[lane], exits.facet[lane]), (alone.t[0], alone.facet[0]), "{i} {lane} {spread}");
             }
@@ -213,12 +214,12 @@ fn rays_beside_each_other_leave_where_each_would_alone() {
 #[test]
 fn lanes_that_are_not_numbers_do_not_disturb_others() {
     let solid = Brilliant::default().solid().unwrap();
-    let mut directions = Points::<8>::splat(Vec3::X);
+    let mut directions = Vectors::<8>::splat(Vec3::X);
     directions.set(3, Vec3::NAN);
     directions.set(5, Vec3::ZERO);
-    let exits = solid.exit_lanes(&Points::splat(solid.center()), &directions);
+    let exits = solid.exit_lanes(&Vectors::splat(solid.center()), &directions);
     assert_eq!((exits.t[3], exits.facet[3], exits.t[5]), (0.0, 0, 0.0));
-    let alone = solid.exit_lanes(&Points::<1>::splat(solid.center()), &Points::splat(Vec3::X));
+    let alone = solid.exit_lanes(&Vectors::<1>::splat(solid.center()), &Vectors::splat(Vec3::X));
     assert_eq!((exits.t[4], exits.facet[4]), (alone.t[0], alone.facet[0]));
 }
 
@@ -231,12 +232,12 @@ fn rays_beside_one_that_is_no_number_keep_their_exits() {
         let angle = turn as f32 * 0.1;
         let middle = Vec3::new(libm::cosf(angle), libm::sinf(angle), 0.3).normalize();
         for (aside, nan) in (0..8).flat_map(|aside| (0..8).map(move |nan| (aside, nan))) {
-            let mut directions = Points::<8>::splat(middle);
+            let mut directions = Vectors::<8>::splat(middle);
             directions.set(aside, (middle + Vec3::new(0.1, -0.1, 0.15)).normalize());
             directions.set(nan, Vec3::NAN);
-            let exits = solid.exit_lanes(&Points::splat(origin), &directions);
+            let exits = solid.exit_lanes(&Vectors::splat(origin), &directions);
             for lane in (0..8).filter(|&lane| lane != nan) {
-                let alone = solid.exit_lanes(&Points::<1>::splat(origin), &Points::splat(directions.get(lane)));
+                let alone = solid.exit_lanes(&Vectors::<1>::splat(origin), &Vectors::splat(directions.get(lane)));
                 assert_eq!(
                     (exits.t[lane], exits.facet[lane]),
                     (alone.t[0], alone.facet[0]),

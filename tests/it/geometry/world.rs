@@ -6,6 +6,7 @@ use spectrel::geometry::{
     Brilliant, Convex, Departure, Disk, GeometryError, Plane, Ray, Rectangle, Shape, ShapeId, Side, Sphere, Target,
     World,
 };
+use spectrel::math::Vectors;
 
 /// Deterministic numbers in [0, 1): the fractional parts of multiples of irrational numbers, scrambled.
 struct Random(u64);
@@ -390,6 +391,89 @@ fn transforms() {
     assert_eq!(solid.transformed(&Affine3A::from_scale(Vec3::new(1.0, 0.0, 1.0))).err(), Some(GeometryError::Singular));
     let nan = Affine3A::from_translation(Vec3::NAN);
     assert!(matches!(solid.transformed(&nan), Err(GeometryError::NotFinite { .. })));
+}
+
+/// Turned, stretched, sheared and mirrored, near and far, and copies of copies: the solid that is cut anew from the moved planes.
+#[test]
+fn copies_of_a_convex_solid_are_what_cutting_it_anew_makes() {
+    let solid = Brilliant::default().solid().unwrap();
+    let turn = Quat::from_axis_angle(Vec3::new(0.3, -0.5, 0.8).normalize(), 1.1);
+    let shear = Affine3A::from_cols(Vec3::X.into(), Vec3::new(0.5, 1.0, 0.0).into(), Vec3::Z.into(), Vec3::ZERO.into());
+    let mirror = Affine3A::from_scale(Vec3::new(-1.0, 1.0, 1.0));
+    let maps = [
+        Affine3A::from_translation(Vec3::new(3.0, -2.0, 0.5)),
+        Affine3A::from_scale_rotation_translation(Vec3::splat(2.5), turn, Vec3::new(1.0, 2.0, -7.0)),
+        Affine3A::from_scale_rotation_translation(Vec3::new(1.0, 2.0, 0.7), turn, Vec3::X),
+        Affine3A::from_quat(turn) * mirror,
+        shear,
+    ];
+    for map in maps {
+        alike(&solid.copied(&map).unwrap(), &solid.transformed(&map).unwrap());
+        let twice = solid.copied(&map).unwrap().copied(&maps[3]).unwrap();
+        assert!(twice.shares_with(&solid));
+        alike(&twice, &solid.transformed(&(maps[3] * map)).unwrap());
+        alike(&solid.copied(&map).unwrap().transformed(&maps[1]).unwrap(), &twice_moved(&solid, [maps[1], map]));
+    }
+    // What is squashed is cut anew, and what is flat is nothing.
+    let squash = Affine3A::from_scale(Vec3::new(1.0, 1.0, 1e-4));
+    assert_eq!(solid.copied(&squash), solid.transformed(&squash));
+    let flat = Affine3A::from_scale(Vec3::new(1.0, 0.0, 1.0));
+    assert_eq!(solid.copied(&flat).err(), Some(GeometryError::Singular));
+    assert!(solid.copied(&Affine3A::from_translation(Vec3::NAN)).is_err());
+}
+
+fn twice_moved(solid: &Convex, [second, first]: [Affine3A; 2]) -> Convex {
+    solid.transformed(&first).unwrap().transformed(&second).unwrap()
+}
+
+/// Facets, outlines and exits are the same to within rounding.
+fn alike(a: &Convex, b: &Convex) {
+    let near = 1e-6 * b.radius().max(b.center().abs().max_element());
+    assert!(a.center().distance(b.center()) <= near && (a.radius() - b.radius()).abs() <= near);
+    assert!(a.bounds().min.distance(b.bounds().min) <= near && a.bounds().max.distance(b.bounds().max) <= near);
+    assert_eq!((a.facets().len(), a.vertices().len(), a.edges().len()), {
+        (b.facets().len(), b.vertices().len(), b.edges().len())
+    });
+    for (number, (f, g)) in (0..).zip(a.facets().iter().zip(b.facets())) {
+        assert!(f.normal.distance(g.normal) < 1e-6 && (f.offset - g.offset).abs() <= near, "{f:?} {g:?}");
+        assert!((f.area - g.area).abs() <= 1e-5 * b.area() && a.source(number) == b.source(number));
+        let corners = |solid: &Convex| -> Vec<Vec3> {
+            solid.corners(number).iter().map(|&corner| solid.vertices()[corner as usize]).collect()
+        };
+        let (own, its) = (corners(a), corners(b));
+        assert_eq!(own.len(), its.len());
+        let first = its.iter().position(|corner| corner.distance(own[0]) <= 2.0 * near).expect("the same corner");
+        let round = its.iter().cycle().skip(first);
+        assert!(own.iter().zip(round).all(|(p, q)| p.distance(*q) <= 2.0 * near), "the same way around");
+    }
+    let mut random = Random(3);
+    for _ in 0..400 {
+        let origins = Vectors::<8>::splat(b.center() + random.vector() * (0.1 * b.radius()));
+        let directions = Vectors::<8>::from_fn(|_| Vec3::ZERO);
+        let mut directions = directions;
+        (0..8).for_each(|lane| directions.set(lane, random.direction()));
+        let (exits, its) = (a.exit_lanes(&origins, &directions), b.exit_lanes(&origins, &directions));
+        for lane in 0..8 {
+            // Beside an edge either facet is right: the ray ends in the same place.
+            assert!((exits.t[lane] - its.t[lane]).abs() <= 1e-5 * b.radius().max(b.center().abs().max_element()));
+        }
+    }
+}
+
+#[test]
+fn ten_thousand_copies_of_a_brilliant_share_it() {
+    let solid = Brilliant::default().solid().unwrap();
+    let copies: Vec<Convex> = (0..10_000u32)
+        .map(|i| {
+            let turn = Quat::from_rotation_z(i as f32);
+            let mirror = Vec3::new(if i % 2 == 0 { 1.0 } else { -1.0 }, 1.0, 1.0);
+            let place = Vec3::new((i % 100) as f32, (i / 100) as f32, 0.0) * 2.0;
+            solid.copied(&Affine3A::from_scale_rotation_translation(mirror, turn, place)).unwrap()
+        })
+        .collect();
+    assert!(copies.iter().all(|copy| copy.shares_with(&solid)));
+    let bytes: usize = copies.iter().map(Convex::own_bytes).sum();
+    assert!(bytes < 75_000_000, "{bytes}");
 }
 
 #[test]

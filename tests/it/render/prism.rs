@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 use spectrel::bsdf::dielectric::refract_lanes;
 use spectrel::fresnel::SpectralModel;
-use spectrel::geometry::{Convex, Departure, Plane, Points, Ray, Shape, ShapeId, Side, World};
+use spectrel::geometry::{Convex, Departure, Plane, Ray, Shape, ShapeId, Side, World};
 use spectrel::math::{Lanes, Vectors};
 use spectrel::spectrum::Library;
 use std::path::Path;
@@ -46,7 +46,7 @@ fn deviation(world: &World, n: f32, incidence: f64) -> Option<f64> {
     let hit = world.closest(&ray, f32::INFINITY)?;
     assert_eq!(hit.side, Side::Outside);
     let within = refracted(direction, hit.normal, 1.0, n)?;
-    let exit = solid.exit_lanes::<1>(&Points::splat(hit.point), &Points::splat(within));
+    let exit = solid.exit_lanes::<1>(&Vectors::splat(hit.point), &Vectors::splat(within));
     let out = refracted(within, -solid.normal(exit.facet[0]), n, 1.0)?;
     Some(direction.as_dvec3().normalize().angle_between(out.as_dvec3().normalize()))
 }

@@ -431,3 +431,66 @@ fn what_is_no_picture_is_told_by_name() {
         assert!(message.contains(name) && message.contains(says), "{message}");
     }
 }
+
+/// `slopes*.jpg`: R = 40 + 10 x, G = 220 − 8 y, B = 60 + 5 (x + y) of 16 × 16 texels, as Pillow 12 wrote them with quality 95 and
+/// without subsampling; the values are Pillow's of the same files.
+#[test]
+fn jpegs_have_the_values_of_another_decoder() {
+    let data = |name: &str| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name);
+    let near = |found: [f32; 3], codes: [u8; 3]| {
+        let off = |(found, code): (f32, u8)| (found * 255.0 - f32::from(code)).abs();
+        assert!(found.into_iter().zip(codes).map(off).fold(0.0, f32::max) < 2.5, "{found:?} {codes:?}");
+    };
+    let corners = [(0, [40, 220, 61]), (15, [190, 220, 134]), (240, [40, 100, 136]), (255, [190, 101, 209])];
+    for name in ["slopes.jpg", "slopes-progressive.jpg"] {
+        let raster = read(&data(name), 0).expect("a picture");
+        assert_eq!((raster.width, raster.height, raster.encoding()), (16, 16, Encoding::Codes));
+        assert!(raster.curves.is_none() && raster.chromaticities.is_none() && raster.notes.is_empty(), "{name}");
+        let texels = coded(raster);
+        corners.iter().chain(&[(87, [110, 180, 118])]).for_each(|&(texel, codes)| near(texels[texel], codes));
+    }
+    let raster = read(&data("slopes-grey.jpg"), 0).expect("a picture");
+    assert!(matches!(&raster.samples, Samples::Codes(codes) if codes.is_grey()));
+    let texels = coded(raster);
+    let greys = [(0, 148), (15, 201), (240, 86), (255, 140), (87, 152)];
+    greys.into_iter().for_each(|(texel, code)| near(texels[texel], [code; 3]));
+}
+
+#[test]
+fn jpegs_of_print_and_those_cut_short_are_told() {
+    let data = |name: &str| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name);
+    let told = |path: &PathBuf| read(path, 0).expect_err("an error").to_string();
+    let print = told(&data("slopes-cmyk.jpg"));
+    assert!(print.contains("CMYK") && print.contains("slopes-cmyk.jpg"), "{print}");
+    let (_folder, path) = folder();
+    let whole = fs::read(data("slopes.jpg")).expect("a file");
+    for length in [0, 1, 20, whole.len() / 2, whole.len() - 40] {
+        fs::write(path("cut.jpeg"), &whole[..length]).expect("a file");
+        assert!(told(&path("cut.jpeg")).contains("cut.jpeg"), "{length}");
+    }
+}
+
+/// A profile in a JPEG is read as one in a PNG is.
+#[test]
+fn the_profile_of_a_jpeg_is_honoured() {
+    let (_folder, path) = folder();
+    let data = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data/slopes.jpg");
+    let whole = fs::read(data).expect("a file");
+    let with = |profile: &[u8]| {
+        let mut segment = b"\xff\xe2".to_vec();
+        segment.extend((profile.len() as u16 + 16).to_be_bytes());
+        segment.extend(b"ICC_PROFILE\0\x01\x01");
+        segment.extend(profile);
+        fs::write(path("a.jpg"), [&whole[..2], &segment, &whole[2..]].concat()).expect("a file");
+        read(&path("a.jpg"), 0).expect("a picture")
+    };
+    let mut grey = vec![0u8; 128];
+    grey[16..20].copy_from_slice(b"GRAY");
+    grey[36..40].copy_from_slice(b"acsp");
+    grey.extend([0, 0, 0, 1]);
+    grey.extend(b"kTRC\0\0\0\x90\0\0\0\x0e");
+    grey.extend(b"curv\0\0\0\0\0\0\0\x01\x02\x00");
+    assert_eq!(with(&grey).curves, Some([Curve::Power(2.0), Curve::Power(2.0), Curve::Power(2.0)]));
+    let unknown = with(b"no profile");
+    assert!(unknown.curves.is_none() && unknown.notes[0].contains("taken for sRGB"), "{:?}", unknown.notes);
+}

@@ -31,7 +31,8 @@ fn broken_pictures_are_told_with_the_place_and_the_file() {
         ("sky.exr", "", "EXR"),
         ("sky.exr", "nonsense of some length, more than a header has", "no EXR"),
         ("sky.png", "\u{89}PNG", "no PNG"),
-        ("sky.jpg", "", "must end in .exr, .hdr or .png"),
+        ("sky.jpg", "\u{89}PNG", "no JPEG"),
+        ("sky.tif", "", "must end in .exr, .hdr, .png or .jpg"),
     ] {
         refused_at_mark(&surroundings(&format!("file = §\"{file}\"")), &[(file, content)], &[file, says]);
     }

@@ -1,5 +1,6 @@
 //! Lengths and axes of mesh files in the scene's.
 
+use crate::common::command::{self, run};
 use crate::common::{film, library, mean};
 use glam::Vec3;
 use serde_json::json;
@@ -115,5 +116,70 @@ fn a_ruby_of_a_gltf_file_is_as_red_as_one_of_the_scene() {
         let found = look(camera, object);
         let off = found.iter().zip(expected).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max);
         assert!(off < 1e-2, "{camera}{object}: {found:?} {expected:?}");
+    }
+}
+
+/// A cube of 6 mm around the zero of a glTF file, in metres as glTF has them.
+fn cube(folder: &Path) {
+    let triangles = FACES.iter().flat_map(|&[a, b, c, d]| [a, b, c, a, c, d]);
+    let corner = |i: u32| [0, 1, 2].map(|axis| if i >> axis & 1 == 1 { 0.003f32 } else { -0.003 });
+    let bytes: Vec<u8> = triangles.flat_map(corner).flat_map(f32::to_le_bytes).collect();
+    let file = json!({
+        "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [0] }], "nodes": [{ "mesh": 0 }],
+        "meshes": [{ "name": "Cube", "primitives": [{ "attributes": { "POSITION": 0 } }] }],
+        "accessors": [{ "bufferView": 0, "componentType": 5126, "count": 36, "type": "VEC3" }],
+        "bufferViews": [{ "buffer": 0, "byteLength": bytes.len() }],
+        "buffers": [{ "uri": "cube.bin", "byteLength": bytes.len() }]
+    });
+    fs::write(folder.join("cube.bin"), bytes).expect("a file");
+    fs::write(folder.join("cube.gltf"), file.to_string()).expect("a file");
+}
+
+/// Linear sRGB of a ruby in white light, seen straight through: as its file says, and as if its metres were the scene's millimetres,
+/// which made it a thousandth of its size and hid that it absorbs.
+#[test]
+fn a_ruby_of_six_millimetres_is_red_and_one_of_six_micrometres_is_clear() {
+    let folder = tempfile::tempdir().expect("a folder");
+    cube(folder.path());
+    let look = |width: f64, mesh: &str| {
+        let text = format!(
+            "meters_per_unit = 0.001\nrender = {{ width = 16, height = 16, samples = 256 }}
+            camera = {{ position = [0, -40, 0], look_at = [0, 0, 0], orthographic_width = {width} }}
+            environment.constant = {{ spectrum = \"D65\", luminance = 100 }}
+            [[objects]]\nmaterial = \"ruby\"\nshape.mesh = {mesh}\n"
+        );
+        let scene = resolve(Text::new(folder.path().join("scene.toml"), text), &library(), &Overrides::default());
+        let [x, y, z] = mean(&film(&scene.expect("a scene"))).map(|value| value / 100.0);
+        // IEC 61966-2-1.
+        [
+            3.240970 * x - 1.537383 * y - 0.498611 * z,
+            -0.969244 * x + 1.875968 * y + 0.041555 * z,
+            0.055630 * x - 0.203977 * y + 1.056972 * z,
+        ]
+    };
+    for (width, mesh, expected) in [
+        (4.0, "{ file = \"cube.gltf\" }", [0.474, 0.090, 0.124]),
+        (0.004, "{ file = \"cube.gltf\", unit = \"mm\" }", [0.998, 0.996, 0.997]),
+    ] {
+        let found = look(width, mesh);
+        let off = found.iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(off < 5e-3, "{mesh}: {found:?} {expected:?}");
+    }
+}
+
+#[test]
+fn inspect_tells_size_and_place_of_a_mesh_in_units_and_in_millimetres() {
+    let camera = "[camera]\nposition = [0, -40, 0]\nlook_at = [0, 0, 0]\nfov = 30\n";
+    let light = "[environment.constant]\nspectrum = \"D65\"\nluminance = 100\n";
+    let object = "[[objects]]\nname = \"cube\"\nmaterial = \"gold\"\nshape.mesh.file = \"cube.gltf\"\n\
+        transform.translate = [1, 0, 0.5]\n";
+    for (head, says) in [
+        ("meters_per_unit = 0.01\n", "cube  0.6 × 0.6 × 0.6 at (1, 0, 0.5); in mm 6 × 6 × 6 at (10, 0, 5)"),
+        ("", "cube  0.006 × 0.006 × 0.006 at (1, 0, 0.5)\n"),
+    ] {
+        let folder = command::folder(&[("a.toml", &format!("{head}{camera}{light}{object}"))]);
+        cube(folder.path());
+        let text = String::from_utf8(run(folder.path(), &["inspect", "a.toml"]).stdout).expect("text");
+        assert!(text.contains("Meshes, scene units\n") && text.contains(says), "{says:?} is not in\n{text}");
     }
 }
