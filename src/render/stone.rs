@@ -84,4 +84,3 @@ fn advance<const N: usize>(origins: &mut Vectors<N>, directions: &Vectors<N>, t:
         origins.z[lane] += directions.z[lane] * t;
     }
 }
-}

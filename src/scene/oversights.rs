@@ -1,6 +1,6 @@
 //! What a scene says that is possible and was hardly meant.
 
-use super::{Scene, Surface, listed};
+use super::{Interface, Scene, Surface, listed};
 use crate::geometry::{Bounds, Shape, ShapeId};
 use crate::light::{Emitter, Environment, Point, Source};
 use glam::{DVec3, Vec3};

@@ -25,7 +25,7 @@ mod view;
 pub(super) use emission::BRIGHTEST;
 pub use settings::Overrides;
 
-use super::describe::{self, SceneFile};
+use super::describe::SceneFile;
 use super::materials::Material;
 use super::oversights::{self, Measures};
 use super::{DataSet, Medium, Pattern, Scene, SceneError, Surface, Text};

@@ -4,7 +4,7 @@
 use spectrel::fresnel::SpectralModel;
 use spectrel::fresnel::exact::reflect;
 use spectrel::math::Lanes;
-use spectrel::scene::{Overrides, Scene, Surface};
+use spectrel::scene::{Metal, Overrides, Scene, Surface};
 
 /// Largest error of F82 per wavelength over 380–780 nm.
 const F82_SPECTRAL: [(&str, f64); 6] = [
@@ -29,7 +29,7 @@ fn scene(material: &str) -> Scene {
 fn index(scene: &Scene, nm: f64) -> [f64; 2] {
     let at = |id| scene.spectra.get(id).at(nm);
     match scene.surfaces[scene.objects[0].surface as usize] {
-        Surface::Conductor { n, k, .. } => [at(n), at(k)],
+        Surface::Conductor(Metal { n, k, .. }) => [at(n), at(k)],
         Surface::Dielectric(interface) => [at(scene.medium(interface.medium).n), 0.0],
         _ => panic!("a material of n and k"),
     }

@@ -4,7 +4,7 @@ use crate::common::{mean_and_error, prism, scene, t_of_pairs};
 use spectrel::film::{Layers, Wanted, Window};
 use spectrel::fresnel::exact::reflect;
 use spectrel::render::{Kernel, Recorder, render_layers};
-use spectrel::scene::{Needs, Overrides, Scene, Surface};
+use spectrel::scene::{Metal, Needs, Overrides, Scene, Surface};
 use spectrel::spectrum::{Bins, LUMENS_PER_WATT};
 use std::sync::atomic::AtomicBool;
 
@@ -59,7 +59,7 @@ fn a_metal_has_its_reflectance_in_every_band() {
         [[objects]]\nmaterial = \"gold\"\nshape.rectangle = { size = [190, 190] }";
     // Every 256 samples visit each wavelength once, so that nothing is left to chance.
     let scene = scene(text, &Overrides { samples: Some(256), ..Overrides::default() });
-    let Surface::Conductor { n, k, .. } = scene.surfaces[0] else { panic!("gold is a metal") };
+    let Surface::Conductor(Metal { n, k, .. }) = scene.surfaces[0] else { panic!("gold is a metal") };
     let [n, k] = [n, k].map(|id| scene.spectra.get(id));
     let bins = bins("380:10:780");
     let mut worst: f64 = 0.0;

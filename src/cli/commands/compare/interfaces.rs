@@ -6,7 +6,7 @@ use crate::fresnel::{Fitted, FresnelModel, Ready, Specimen, Target};
 use crate::math::{LANES, Lanes};
 use crate::report::comparison::{Curves, Line};
 use crate::report::timing::{self, BRIEF};
-use crate::scene::{MediumId, Scene, Surface};
+use crate::scene::{MediumId, Metal, Scene, Surface};
 use std::collections::BTreeSet;
 
 /// Where a curve is sampled: 400 to 700 nm, a path's lanes at a time.
