@@ -5,7 +5,6 @@
 //! loses nothing but the rounding of the ray's own origin.
 
 mod bundle;
-mod crowd;
 mod exit;
 mod meet;
 mod planes;

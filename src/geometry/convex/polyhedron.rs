@@ -3,10 +3,12 @@
 //! A large cube is cut by one plane after another. Vertices are shared and each is judged once against each plane (in, on
 //! or out), so that many planes may pass through one vertex, as they do all over a gem, and facets still fit together.
 
+mod crowd;
+
 use glam::DVec3;
 
-use super::crowd::{self, CROWD};
 use crate::geometry::GeometryError;
+use crowd::CROWD;
 
 /// The half-space `normal`·x ≤ `offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,7 +40,7 @@ impl Plane {
         (plane.normal.is_finite() && plane.offset.is_finite()).then_some(plane)
     }
 
-    pub(super) fn height(&self, point: DVec3) -> f64 {
+    fn height(&self, point: DVec3) -> f64 {
         self.normal.dot(point) - self.offset
     }
 }
@@ -86,14 +88,14 @@ impl Polyhedron {
 /// A cube's face while cutting goes on, beyond all plane numbers.
 const CUBE: usize = usize::MAX;
 
-pub(super) struct Cutter {
-    pub vertices: Vec<DVec3>,
-    pub faces: Vec<Face>,
-    pub tolerance: f64,
+struct Cutter {
+    vertices: Vec<DVec3>,
+    faces: Vec<Face>,
+    tolerance: f64,
 }
 
 #[derive(Clone, Copy, PartialEq)]
-pub(super) enum Place {
+enum Place {
     In,
     On,
     Out,
@@ -195,7 +197,7 @@ impl Cutter {
     }
 
     /// Forgets vertices that no face uses.
-    pub(super) fn compact(&mut self) {
+    fn compact(&mut self) {
         let mut renamed = vec![usize::MAX; self.vertices.len()];
         let mut vertices = Vec::new();
         for corner in self.faces.iter_mut().flat_map(|f| f.corners.iter_mut()) {
@@ -255,7 +257,7 @@ fn first_near(vertices: &[DVec3], near: f64) -> Vec<usize> {
 }
 
 /// The corners of a convex polygon in their order around the normal.
-pub(super) fn sort_around(vertex: impl Fn(usize) -> DVec3, corners: &mut [usize], normal: DVec3) {
+fn sort_around(vertex: impl Fn(usize) -> DVec3, corners: &mut [usize], normal: DVec3) {
     let mean = corners.iter().map(|&c| vertex(c)).sum::<DVec3>() / corners.len() as f64;
     let axis = if normal.x.abs() < 0.6 { DVec3::X } else { DVec3::Y };
     let u = normal.cross(axis).normalize_or_zero();

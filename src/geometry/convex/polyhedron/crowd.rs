@@ -1,4 +1,4 @@
-//! Solids of many planes: the same cuts as in [`polyhedron`](super::polyhedron), which visit only what a plane touches.
+//! Solids of many planes: the same cuts as in [`polyhedron`](super), which visit only what a plane touches.
 //!
 //! Planes come in rounds, each twice as large as the one before and in the order of a curve through all directions (N. Amenta, S. Choi
 //! and G. Rote, "Incremental constructions con BRIO", SoCG 2003). So vertices that are stored beside each other lie beside each other,
@@ -8,7 +8,7 @@
 
 use std::collections::HashMap;
 
-use super::polyhedron::{Cutter, Face, Place, Plane, sort_around};
+use super::{Cutter, Face, Place, Plane, sort_around};
 use crate::geometry::GeometryError;
 use glam::DVec3;
 
