@@ -175,7 +175,7 @@ fn cell(case: &Case, measure: Measure, bound: f64, truth: &LazyLock<Picture, imp
 }
 
 #[test]
-#[ignore = "takes minutes; .ci/run runs it"]
+#[ignore = "long: minutes"]
 fn promises_are_kept_or_not_made() {
     let (mut broken, mut with_promise) = (Vec::new(), 0);
     println!("{:<32} {:<10} {:>6} {:>6} {:>6} {:>8}", "scene", "target", "made", "kept", "over", "samples");
@@ -222,7 +222,7 @@ fn brighter(case: &Case, seeds: u64, deciding: impl Fn(u64) -> (Picture, f64)) -
 /// Where the light that decides is found by one path in many, a picture is as bright in the mean as one that decides nothing: renders that
 /// do not know what they may miss stop by luck alone. `SPECTREL_BIAS_SEEDS` sets how many renders tell it.
 #[test]
-#[ignore = "takes minutes; .ci/run runs it"]
+#[ignore = "long: minutes"]
 fn deciding_samples_bias_nothing() {
     let seeds = std::env::var("SPECTREL_BIAS_SEEDS").map_or(200, |seeds| seeds.parse().expect("a number"));
     let (cases, mut seen) = (scenes::all(), 0);
@@ -254,7 +254,7 @@ fn deciding_samples_bias_nothing() {
 
 /// Exact Fresnel against Schlick on iron, whose lamp only paths by way of the iron find: intervals hold the truth.
 #[test]
-#[ignore = "takes minutes; .ci/run runs it"]
+#[ignore = "long: minutes"]
 fn intervals_of_comparisons_hold_the_truth() {
     let cases = scenes::all();
     for (name, least) in [("iron balls under a small lamp", 0), ("metals under a sky", 90)] {

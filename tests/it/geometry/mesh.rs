@@ -104,11 +104,22 @@ fn within(world: &World, random: &mut Random, positions: &[Vec3], indices: &[[u3
 }
 
 #[test]
+fn some_rays_from_inside_find_the_surface() {
+    find_the_surface(4_000);
+}
+
+#[test]
+#[ignore = "long: millions of rays"]
 fn rays_from_inside_aimed_at_edges_and_corners_find_the_surface() {
+    find_the_surface(40_000);
+}
+
+/// Aimed at edges and corners.
+fn find_the_surface(rays: u32) {
     everywhere(|name, world, positions, indices| {
         let mut random = Random(3);
         let (mut asked, mut grazing) = (0, 0);
-        for i in 0..40_000 {
+        for i in 0..rays {
             let Some(origin) = within(world, &mut random, positions, indices) else { continue };
             let triangle = indices[random.below(indices.len())];
             let [a, b] = [triangle[0], triangle[1]].map(|corner| positions[corner as usize]);
@@ -122,17 +133,27 @@ fn rays_from_inside_aimed_at_edges_and_corners_find_the_surface() {
             // either way it is inside afterwards.
             grazing += u32::from(hit.side == Side::Outside);
         }
-        assert!(asked > 5_000 && grazing < asked / 200, "{name}: {grazing} of {asked}");
+        assert!(asked > rays / 8 && grazing < asked / 200, "{name}: {grazing} of {asked}");
     });
 }
 
-/// A light path that goes through the surface, or is thrown back, at random.
 #[test]
+fn what_leaves_the_surface_stays_on_its_side() {
+    stays_on_its_side(3_000);
+}
+
+#[test]
+#[ignore = "long: 7,000,000 rays"]
 fn whatever_leaves_the_surface_stays_on_its_side() {
+    stays_on_its_side(30_000);
+}
+
+/// Light paths that go through the surface, or are thrown back, at random.
+fn stays_on_its_side(paths: usize) {
     everywhere(|name, world, positions, indices| {
         let mut random = Random(5);
         let (mut steps, mut grazing) = (0, 0);
-        for _ in 0..30_000 {
+        for _ in 0..paths {
             let Some(origin) = within(world, &mut random, positions, indices) else { continue };
             let mut ray = Ray::free(origin, random.direction());
             let mut inside = true;
@@ -147,7 +168,7 @@ fn whatever_leaves_the_surface_stays_on_its_side() {
                 ray = away(&hit, inside, &mut random);
             }
         }
-        assert!(steps > 30_000 && grazing <= 3, "{name}: {grazing} of {steps}");
+        assert!(steps > paths && grazing <= 3, "{name}: {grazing} of {steps}");
     });
 }
 
@@ -310,15 +331,25 @@ fn corners_beyond_all_counts_are_errors_that_cost_nothing() {
 
 /// Many triangles on one point or one line: all of them alone are an error, among others they are in nobody's way, and no build hangs.
 #[test]
+fn a_few_points_among_triangles_do_no_harm() {
+    points_do_no_harm(20_000);
+}
+
+#[test]
+#[ignore = "long: 200,000 triangles"]
 fn meshes_without_area_are_errors_and_points_among_triangles_do_no_harm() {
-    let points: Vec<[u32; 3]> = vec![[0, 0, 0]; 200_000];
-    let lines: Vec<[u32; 3]> = (0..200_000).map(|i| [i % 7, (i + 1) % 7, (i + 3) % 7]).collect();
+    points_do_no_harm(200_000);
+}
+
+fn points_do_no_harm(count: usize) {
+    let points: Vec<[u32; 3]> = vec![[0, 0, 0]; count];
+    let lines: Vec<[u32; 3]> = (0..count as u32).map(|i| [i % 7, (i + 1) % 7, (i + 3) % 7]).collect();
     let positions: Vec<Vec3> = (0..7).map(|i| Vec3::splat(i as f32 - 3.0)).collect();
     for indices in [points, lines] {
         let flat = Triangles { positions: positions.clone(), indices: indices.clone(), ..Triangles::default() };
-        assert_eq!(Mesh::new(flat).unwrap_err(), GeometryError::NoTriangleWithArea { count: 200_000 });
+        assert_eq!(Mesh::new(flat).unwrap_err(), GeometryError::NoTriangleWithArea { count });
         let mut ball = meshes::icosphere(3);
-        let count = ball.indices.len() as u32;
+        let real = ball.indices.len() as u32;
         let first = ball.positions.len() as u32;
         ball.positions.extend(&positions);
         ball.indices.extend(indices.iter().map(|triangle| triangle.map(|index| first + index)));
@@ -326,7 +357,7 @@ fn meshes_without_area_are_errors_and_points_among_triangles_do_no_harm() {
         let mut random = Random(41);
         for _ in 0..1000 {
             let ray = Ray::free(random.direction() * 0.3, random.direction());
-            assert!(world.closest(&ray, f32::INFINITY).is_some_and(|hit| hit.facet < count));
+            assert!(world.closest(&ray, f32::INFINITY).is_some_and(|hit| hit.facet < real));
         }
     }
 }

@@ -85,7 +85,7 @@ fn glb(vertices: &[[f32; 8]], triangles: &[[u32; 3]]) -> Vec<u8> {
 }
 
 #[test]
-#[ignore = "measures"]
+#[ignore = "long: measures"]
 fn load_times() {
     let (vertices, triangles) = torus();
     let point = |i: u32| [0, 1, 2].map(|axis| vertices[i as usize][axis]);

@@ -31,13 +31,23 @@ fn renders(text: &str, samples: u32, lanes: u32) -> Vec<[f64; 3]> {
 }
 
 #[test]
+fn a_constant_picture_lights_rough_gold_as_the_constant_environment() {
+    constant_picture(&MATERIALS[2..3], &[8]);
+}
+
+#[test]
+#[ignore = "long: five materials, three times 48 renders each"]
 fn a_constant_picture_is_the_constant_environment() {
+    constant_picture(&MATERIALS, &[1, 8]);
+}
+
+fn constant_picture(materials: &[(&str, &str)], lanes: &[u32]) {
     // Values that files and arithmetic hold exactly: 2.5 × 40.
     let picture = Picture::constant(16, 8, 2.5);
     let sky = picture.environment("scale = 40");
     let constant = |y: f64| format!("environment.constant = {{ spectrum = \"E\", luminance = {y} }}\n");
-    for (name, material) in MATERIALS {
-        for lanes in [1, 8] {
+    for &(name, material) in materials {
+        for &lanes in lanes {
             let samples = 2048 / lanes;
             let map = renders(&ball(&sky, material), samples, lanes);
             let (same, more) = (ball(&constant(100.0), material), ball(&constant(101.0), material));
@@ -68,11 +78,21 @@ fn plane(environment: &str, objects: &str) -> String {
 }
 
 #[test]
+fn a_bright_texel_lights_a_plane_for_eight_lanes() {
+    bright_texel(&[8]);
+}
+
+#[test]
+#[ignore = "long: lanes alone"]
 fn one_bright_texel_lights_a_plane_as_its_solid_angle_says() {
+    bright_texel(&[1]);
+}
+
+fn bright_texel(lanes: &[u32]) {
     // At the zenith, in the middle, across the horizon.
     for (width, height, texel) in [(64, 32, [0, 5]), (64, 32, [7, 40]), (31, 15, [7, 3]), (1, 1, [0, 0])] {
         let sky = Picture::bright(width, height, texel, 1000.0);
-        for lanes in [1, 8] {
+        for &lanes in lanes {
             check("texel", &plane(&sky.environment(""), ""), 256, lanes, 0.5 * sky.irradiance() / PI);
         }
     }
@@ -94,7 +114,17 @@ fn a_sun_of_one_texel_keeps_its_energy_beside_the_sky_and_beside_a_lamp() {
 }
 
 #[test]
+fn mirrors_and_glass_show_a_bright_texel_to_eight_lanes() {
+    mirrors_and_glass(8);
+}
+
+#[test]
+#[ignore = "long: lanes alone"]
 fn mirrors_and_glass_show_a_bright_texel_as_it_is() {
+    mirrors_and_glass(1);
+}
+
+fn mirrors_and_glass(lanes: u32) {
     // +y is the middle of this one.
     let sky = Picture::bright(63, 31, [15, 31], 1000.0);
     let grey = "materials.grey.diffuse.reflectance = 0.5\n";
@@ -105,15 +135,14 @@ fn mirrors_and_glass_show_a_bright_texel_as_it_is() {
     let r = reflect(1.0, 1.5, 0.0, 1.0).r;
     // A lamp and a grey ball elsewhere, so that lights are sampled.
     let more = "[[objects]]\nmaterial = \"grey\"\nshape.sphere = { radius = 1, center = [90, 0, 0] }\n";
-    for lanes in [1, 8] {
-        let text = format!("{}{}{grey}{mirror}{more}", camera(5.0), sky.environment(""));
-        check("mirror", &text, 2048 / lanes, lanes, 1000.0);
-        let text = format!("{}{}{grey}{pane}{more}", camera(-5.0), sky.environment(""));
-        check("pane", &text, 8192 / lanes, lanes, 1000.0 * (1.0 - r) / (1.0 + r));
-    }
+    let text = format!("{}{}{grey}{mirror}{more}", camera(5.0), sky.environment(""));
+    check("mirror", &text, 2048 / lanes, lanes, 1000.0);
+    let text = format!("{}{}{grey}{pane}{more}", camera(-5.0), sky.environment(""));
+    check("pane", &text, 8192 / lanes, lanes, 1000.0 * (1.0 - r) / (1.0 + r));
 }
 
 #[test]
+#[ignore = "long: light that few paths find"]
 fn light_of_a_texel_comes_through_a_pane_onto_a_plane() {
     // No shadow ray comes through glass: only directions that the plane chooses find the texel, and it counts in full.
     let sky = Picture::bright(8, 4, [0, 6], 1000.0);
@@ -131,7 +160,17 @@ fn light_of_a_texel_comes_through_a_pane_onto_a_plane() {
 }
 
 #[test]
+fn a_matt_ball_sees_a_sunny_sky_alike_by_either_way_of_finding_it() {
+    either_way(&MATERIALS[..1]);
+}
+
+#[test]
+#[ignore = "long: five materials"]
 fn rough_metal_sees_a_sunny_sky_alike_by_either_way_of_finding_it() {
+    either_way(&MATERIALS);
+}
+
+fn either_way(materials: &[(&str, &str)]) {
     // The same light from a gradient that only surfaces find: zenith 900, horizon 100, in narrow rows.
     let rows = 512;
     let row = |i: usize| {
@@ -141,7 +180,7 @@ fn rough_metal_sees_a_sunny_sky_alike_by_either_way_of_finding_it() {
     let sky = Picture::new(4, (0..4 * rows).map(|i| [row(i / 4) as f32; 3]).collect());
     let part = |name: &str, y: u32| format!("environment.gradient.{name} = {{ spectrum = \"E\", luminance = {y} }}\n");
     let gradient = &[part("zenith", 900), part("horizon", 100), part("nadir", 10)].concat();
-    for (name, material) in MATERIALS {
+    for &(name, material) in materials {
         let map = renders(&ball(&sky.environment(""), material), 1024, 8);
         let t = t_of_pairs(&map, &renders(&ball(gradient, material), 1024, 8));
         let mean = |renders: &[[f64; 3]]| renders.iter().map(|xyz| xyz[1]).sum::<f64>();
