@@ -3,7 +3,9 @@
 //! Kinds are externally tagged (`shape.sphere = { … }`, `[conductor]`), so that an error points at the exact place; untagged
 //! and flattened structures lose it.
 
+pub use super::lamps::{LightSpectrum, OwnLight, OwnTable};
 use super::materials::Material;
+pub use super::numbers::Number;
 use super::numbers::{Finite, Length, Lengths, Numbers};
 pub use super::pictures::{ColorSpaceName, EnvironmentImage, ImageTexture, TextureSpaceName};
 use crate::fresnel::FresnelModel;
@@ -12,7 +14,6 @@ use std::collections::BTreeMap;
 use toml::Spanned;
 
 pub type Vector = Spanned<Numbers<3>>;
-pub type Number = Spanned<f64>;
 
 /// Keys of a scene that stand above its first table: below one they would belong to that.
 pub const TOP_KEYS: [&str; 2] = ["meters_per_unit", "outside"];
@@ -244,36 +245,6 @@ pub struct Emission {
     /// Flat shapes shine from the front only unless this is true.
     #[serde(default)]
     pub two_sided: bool,
-}
-
-/// An illuminant's name or file, or a spectrum of its own.
-#[derive(Debug)]
-pub enum LightSpectrum {
-    Name(String),
-    Own(OwnLight),
-}
-
-/// A spectrum that the scene states itself.
-#[derive(Debug, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum OwnLight {
-    /// Colour temperature in K.
-    Blackbody(Number),
-    /// CIE daylight of this correlated colour temperature in K.
-    Daylight(Number),
-    Table(OwnTable),
-    /// Emission lines as [wavelength in nm, relative power].
-    Lines(Vec<Spanned<Numbers<2>>>),
-}
-
-/// Linear between its points and without light outside them.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct OwnTable {
-    /// Growing.
-    pub wavelength_nm: Vec<Spanned<f64>>,
-    /// As many as wavelengths; in W m⁻² sr⁻¹ nm⁻¹ if `scale` is given, in any unit otherwise.
-    pub value: Vec<Spanned<f64>>,
 }
 
 /// A shape at a place, of a material, with or without light of its own.

@@ -4,6 +4,7 @@ mod chance;
 pub mod describe;
 mod error;
 mod forms;
+mod lamps;
 mod lighting;
 pub mod materials;
 mod needs;

@@ -3,6 +3,7 @@
 use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
 use std::fmt;
 use std::marker::PhantomData;
+use toml::Spanned;
 
 /// A number that single precision can hold: neither infinite nor NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,6 +17,8 @@ pub struct Length(pub f64);
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exactly<T, const N: usize>(pub [T; N]);
 
+/// A number whose place is known.
+pub type Number = Spanned<f64>;
 pub type Numbers<const N: usize> = Exactly<Finite, N>;
 pub type Lengths<const N: usize> = Exactly<Length, N>;
 

@@ -1,7 +1,7 @@
 //! What a scene file says of the pictures it takes light and colours from; a part of `describe`.
 
-use super::describe::{LightSpectrum, Number};
-use super::numbers::Numbers;
+use super::lamps::LightSpectrum;
+use super::numbers::{Number, Numbers};
 use crate::texture::Wrap;
 use serde::Deserialize;
 use toml::Spanned;

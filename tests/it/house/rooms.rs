@@ -94,7 +94,6 @@ fn the_reader_of_use_lines_sees_what_it_must() {
 
 /// Siblings that import each other all the same, which are to be parted.
 const CIRCLES: &[&[&str]] = &[
-    &["scene::describe", "scene::pictures"],
     &["scene::resolve::bodies", "scene::resolve::meshes", "scene::resolve::objects"],
     &["spectrum::noise", "spectrum::table"],
 ];

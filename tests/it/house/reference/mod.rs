@@ -1,4 +1,4 @@
-//! `docs/reference.md` is written from `src/scene/describe.rs`, `materials`, `pictures.rs` and `own_index.rs`, so that it cannot go stale: run with `WRITE_REFERENCE=1` after
+//! `docs/reference.md` is written from `src/scene/describe.rs`, `lamps.rs`, `materials`, `pictures.rs` and `own_index.rs`, so that it cannot go stale: run with `WRITE_REFERENCE=1` after
 //! a change there. Its examples are scenes that resolve.
 
 mod parse;
@@ -9,6 +9,8 @@ use std::fmt::Write;
 
 const SOURCE: &str = concat!(
     include_str!("../../../../src/scene/describe.rs"),
+    "\n",
+    include_str!("../../../../src/scene/lamps.rs"),
     "\n",
     include_str!("../../../../src/scene/materials/mod.rs"),
     "\n",
