@@ -413,6 +413,7 @@ fn what_is_no_picture_is_told_by_name() {
     fs::write(path("c.hdr"), "#?RADIANCE\n\n+X 1 -Y 1\nabcd").expect("a file");
     fs::write(path("d.hdr"), "#?RADIANCE\n\n-Y 0 +X 7\nabcd").expect("a file");
     fs::write(path("e.hdr"), "#?RADIANCE\nEXPOSURE=0\n\n-Y 1 +X 1\nabcd").expect("a file");
+    fs::write(path("a.gif"), "").expect("a file");
     fs::write(path("a.jpg"), "").expect("a file");
     fs::write(path("a.exr"), "#?RADIANCE\n").expect("a file");
     fs::create_dir(path("folder.png")).expect("a folder");
@@ -422,7 +423,8 @@ fn what_is_no_picture_is_told_by_name() {
         ("c.hdr", "rows are columns"),
         ("d.hdr", "7 × 0 texels"),
         ("e.hdr", "EXPOSURE=0"),
-        ("a.jpg", ".exr, .hdr or .png"),
+        ("a.gif", ".exr, .hdr, .png or .jpg"),
+        ("a.jpg", "ends in the middle"),
         ("a.exr", "no EXR"),
         ("none.exr", "cannot read"),
         ("folder.png", "no file"),
