@@ -109,6 +109,9 @@ pub trait Scatters<const N: usize> {
 }
 
 /// The closed set of surfaces: for each its name and its type.
+///
+/// What asks a surface of one kind is told so at compile time: the choice among all of them took 2 % of the instructions of a
+/// sample in a Cornell box.
 macro_rules! surfaces {
     ($($(#[$about:meta])* $name:ident),+ $(,)?) => {
         /// How a surface scatters, for the wavelengths of one path.
@@ -125,7 +128,7 @@ macro_rules! surfaces {
         })+
 
         impl<const N: usize> Scatters<N> for Bsdf<N> {
-            #[inline]
+            #[inline(always)]
             fn sample(&self, wo: Vec3, draw: Draw) -> Option<Sample<N>> {
                 if wo.z <= 0.0 {
                     return None;
@@ -135,7 +138,7 @@ macro_rules! surfaces {
                 }
             }
 
-            #[inline]
+            #[inline(always)]
             fn eval(&self, wo: Vec3, wi: Vec3) -> Eval<N> {
                 let reaches = wi.z > 0.0 || wi.z < 0.0 && self.sides() == Sides::Both;
                 if wo.z <= 0.0 || !reaches {
@@ -146,28 +149,28 @@ macro_rules! surfaces {
                 }
             }
 
-            #[inline]
+            #[inline(always)]
             fn is_delta(&self) -> bool {
                 match self {
                     $(Self::$name(surface) => surface.is_delta(),)+
                 }
             }
 
-            #[inline]
+            #[inline(always)]
             fn sides(&self) -> Sides {
                 match self {
                     $(Self::$name(surface) => surface.sides(),)+
                 }
             }
 
-            #[inline]
+            #[inline(always)]
             fn has_lobes(&self) -> bool {
                 match self {
                     $(Self::$name(surface) => surface.has_lobes(),)+
                 }
             }
 
-            #[inline]
+            #[inline(always)]
             fn softens_terminator(&self) -> bool {
                 match self {
                     $(Self::$name(surface) => surface.softens_terminator(),)+

@@ -84,7 +84,7 @@ impl<const P: u32> Tracer<'_, P> {
     pub fn interface<const N: usize>(
         &self,
         interface: &Interface,
-        vertex: &Vertex<N>,
+        vertex: Vertex<N>,
         path: &mut Path<N>,
     ) -> ControlFlow<()> {
         let hit = vertex.hit;
@@ -95,7 +95,7 @@ impl<const P: u32> Tracer<'_, P> {
             let boundary = Boundary { interface: *interface, rank, media, far: *hit };
             return self.cross_together(boundary, vertex, path);
         }
-        self.cross(interface, vertex, &Beyond { media, far: hit }, path)
+        self.cross(interface, &vertex, &Beyond { media, far: hit }, path)
     }
 
     /// Kept apart: boundaries that may coincide are worked out in memory, which took 4 % of the instructions of a sample of glass that
@@ -104,11 +104,11 @@ impl<const P: u32> Tracer<'_, P> {
     fn cross_together<const N: usize>(
         &self,
         boundary: Boundary,
-        vertex: &Vertex<N>,
+        vertex: Vertex<N>,
         path: &mut Path<N>,
     ) -> ControlFlow<()> {
         let Boundary { interface, media, far, .. } = self.contact(boundary, &path.ray, vertex.also);
-        self.cross(&interface, vertex, &Beyond { media, far: &far }, path)
+        self.cross(&interface, &vertex, &Beyond { media, far: &far }, path)
     }
 
     /// Across or back.
@@ -127,7 +127,7 @@ impl<const P: u32> Tracer<'_, P> {
             return ControlFlow::Continue(());
         }
         if Self::runs(Physics::ROUGH_GLASS) && interface.is_rough() {
-            return self.scatter_clear(interface, vertex, beyond, path);
+            return self.scatter_clear(interface, *vertex, beyond, path);
         }
         let (n1, n2) = (self.n(from, wavelengths), self.n(to, wavelengths));
         let normal = vertex.frame.z;

@@ -168,7 +168,7 @@ impl<const P: u32> Tracer<'_, P> {
             }
             Surface::Dielectric(interface) if Self::runs(Physics::CLEAR_MEDIA) => {
                 let interface = self.boundary_at(interface, hit);
-                self.interface(&interface, vertex, path)
+                self.interface(&interface, *vertex, path)
             }
             Surface::Dielectric(_) => ControlFlow::Break(()),
         }

@@ -33,7 +33,7 @@ impl<const P: u32> Tracer<'_, P> {
     /// Reflectance at a hit of what reflects so as a whole.
     #[inline]
     pub fn reflectance<const N: usize>(&self, whole: SpectrumId, vertex: &Vertex<N>) -> Lanes<N> {
-        if self.needs(Physics::TEXTURES) { self.printed(whole, vertex) } else { vertex.wavelengths.at(whole) }
+        if self.needs(Physics::TEXTURES) { self.printed(whole, *vertex) } else { vertex.wavelengths.at(whole) }
     }
 
     /// A clear boundary as it is at a hit.
@@ -49,8 +49,8 @@ impl<const P: u32> Tracer<'_, P> {
     }
 
     #[inline(never)]
-    fn printed<const N: usize>(&self, whole: SpectrumId, vertex: &Vertex<N>) -> Lanes<N> {
-        let &Vertex { hit, wavelengths, .. } = vertex;
+    fn printed<const N: usize>(&self, whole: SpectrumId, vertex: Vertex<N>) -> Lanes<N> {
+        let Vertex { hit, wavelengths, .. } = vertex;
         let Some(tints) = self.pattern(hit).and_then(|pattern| pattern.reflectance.as_ref()) else {
             return wavelengths.at(whole);
         };

@@ -55,7 +55,7 @@ impl<const P: u32> Tracer<'_, P> {
     pub fn scatter_clear<const N: usize>(
         &self,
         interface: &Interface,
-        vertex: &Vertex<N>,
+        vertex: Vertex<N>,
         beyond: &Beyond,
         path: &mut Path<N>,
     ) -> ControlFlow<()> {
@@ -63,6 +63,6 @@ impl<const P: u32> Tracer<'_, P> {
         let [n1, n2] = [from, to].map(|medium| self.n(medium, vertex.wavelengths));
         let fresnel = self.boundary(interface.model, from, to, vertex.wavelengths);
         let bsdf = RoughDielectric::new(fresnel, &n1, &n2, interface.alpha).into();
-        self.scatter(&bsdf, vertex, Some(beyond), path)
+        self.scatter(&bsdf, &vertex, Some(beyond), path)
     }
 }

@@ -9,6 +9,9 @@ use crate::spectrum::Wavelengths;
 use glam::Vec3;
 
 /// What a path has met, made once per hit.
+///
+/// Functions that are not inlined take it by value: a reference would have all of it written to memory at every hit.
+#[derive(Clone, Copy)]
 pub struct Vertex<'a, const N: usize> {
     pub hit: &'a Hit,
     /// Surfaces at the same place that were left with the last one.
