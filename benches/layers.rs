@@ -2,8 +2,8 @@
 //!
 //! Variants take turns and each keeps its fastest time; read the ratios.
 
-use spectrel::film::{Film, Layers, Wanted, Window};
-use spectrel::render::{Guides, Kernel, Recorder, render, render_layers};
+use spectrel::film::{Layers, Wanted, Window};
+use spectrel::render::{Guides, Kernel, Recorder, Samples, render};
 use spectrel::scene::{Needs, Overrides, Text, resolve};
 use spectrel::spectrum::{Bins, Library, RgbSpace};
 use std::sync::atomic::AtomicBool;
@@ -19,31 +19,24 @@ fn main() {
     let kernel = Kernel::new(&scene, &needs);
     let size = [scene.settings.width, scene.settings.height];
     let window = Window::full(size[0], size[1]);
-    let seconds = |wanted: Option<Wanted>| {
-        let Some(wanted) = wanted else {
-            let mut film = Film::new(size, window).expect("memory");
-            let started = Instant::now();
-            render(&kernel, &mut film, 0..32, &(), &cancel);
-            return started.elapsed().as_secs_f64();
-        };
+    let seconds = |wanted: Wanted| {
         let mut layers = Layers::new(size, window, wanted).expect("memory");
         let guides = wanted.features.then(|| Guides::first_hit(&scene, &needs, RgbSpace::Srgb));
         let bins = (wanted.bands > 0).then(Bins::default);
         let recorder = Recorder::new(&kernel, guides, bins.as_ref());
         let started = Instant::now();
-        render_layers(&recorder, &mut layers, 0..32, &(), &cancel);
+        render(&recorder, &mut layers, Samples::Same(0..32), &(), &cancel);
         started.elapsed().as_secs_f64()
     };
     let none = Wanted::default();
     let variants = [
-        ("film alone", None),
-        ("no layers", Some(none)),
-        ("albedo and normal", Some(Wanted { features: true, ..none })),
-        ("variance", Some(Wanted { replicates: true, ..none })),
-        ("41 bands", Some(Wanted { bands: 41, ..none })),
+        ("film alone", none),
+        ("albedo and normal", Wanted { features: true, ..none }),
+        ("variance", Wanted { replicates: true, ..none }),
+        ("41 bands", Wanted { bands: 41, ..none }),
     ];
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
-    let mut best = [f64::INFINITY; 5];
+    let mut best = [f64::INFINITY; 4];
     pool.install(|| {
         for _ in 0..TURNS {
             for (best, (_, wanted)) in best.iter_mut().zip(variants) {

@@ -4,9 +4,9 @@
 //! Variants take turns and each keeps its fastest time, so that what else the machine does falls on all of them alike; read the
 //! ratios, not the seconds.
 
-use spectrel::film::{Film, Window};
+use spectrel::film::{Layers, Wanted, Window};
 use spectrel::fresnel::{FresnelModel, SpectralModel};
-use spectrel::render::{Kernel, render};
+use spectrel::render::{Kernel, Recorder, Samples, render};
 use spectrel::scene::{Needs, Overrides, Scene, Text, resolve};
 use spectrel::spectrum::Library;
 use std::sync::atomic::AtomicBool;
@@ -25,9 +25,10 @@ fn time(scene: &Scene) -> Duration {
     let needs = Needs::of(scene);
     let kernel = Kernel::new(scene, &needs);
     let size = [scene.settings.width, scene.settings.height];
-    let mut film = Film::new(size, Window::full(size[0], size[1])).expect("memory");
+    let mut layers = Layers::new(size, Window::full(size[0], size[1]), Wanted::default()).expect("memory");
+    let samples = Samples::Same(0..u64::from(scene.settings.samples));
     let started = Instant::now();
-    render(&kernel, &mut film, 0..u64::from(scene.settings.samples), &(), &AtomicBool::new(false));
+    render(&Recorder::new(&kernel, None, None), &mut layers, samples, &(), &AtomicBool::new(false));
     started.elapsed()
 }
 
@@ -89,7 +90,9 @@ fn first_sample() {
     let needs = Needs::of(&scene);
     let kernel = Kernel::new(&scene, &needs);
     let size = [scene.settings.width, scene.settings.height];
-    let mut film = Film::new(size, Window { x0: 0, y0: 0, width: 1, height: 1 }).expect("memory");
-    render(&kernel, &mut film, 0..1, &(), &AtomicBool::new(false));
+    let window = Window { x0: 0, y0: 0, width: 1, height: 1 };
+    let mut layers = Layers::new(size, window, Wanted::default()).expect("memory");
+    let recorder = Recorder::new(&kernel, None, None);
+    render(&recorder, &mut layers, Samples::Same(0..1), &(), &AtomicBool::new(false));
     println!("from the scene's text to the first sample\n  {:.3} s", started.elapsed().as_secs_f64());
 }

@@ -5,9 +5,8 @@ mod common;
 use common::{film, scene};
 use spectrel::film::fnv1a_64;
 use spectrel::film::{Film, Window};
-use spectrel::render::{Kernel, render};
+use spectrel::render::Kernel;
 use spectrel::scene::{Needs, Overrides};
-use std::sync::atomic::AtomicBool;
 
 const SCENE: &str = include_str!("data/reproducible.toml");
 const PICTURES: &str = include_str!("data/pictures.toml");
@@ -28,11 +27,7 @@ fn parts_of_a_job_merge_into_the_same_film() {
     let scene = scene(SCENE, &Overrides::default());
     let needs = Needs::of(&scene);
     let kernel = Kernel::new(&scene, &needs);
-    let part = |samples, window| {
-        let mut film = Film::new([48, 32], window).expect("a small film");
-        render(&kernel, &mut film, samples, &(), &AtomicBool::new(false));
-        film
-    };
+    let part = |samples, window| common::part(&kernel, [48, 32], window, samples);
     let mut whole = part(13..20, Window::full(48, 32));
     whole.merge(&part(0..13, Window { x0: 0, y0: 0, width: 48, height: 32 })).expect("the same window");
     assert!(whole == film(&scene), "ranges of samples");

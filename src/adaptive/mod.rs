@@ -24,6 +24,6 @@ pub use effort::{Effort, LEAST_SHARED, LIMIT, Session};
 pub use noise::Noise;
 pub use pilot::Pilot;
 pub use promise::{Goal, Look};
-pub use render_loop::{RenderLoop, Samples};
+pub use render_loop::RenderLoop;
 pub use sharing::{Halves, SharedLoop};
 pub use target::{Measure, Reached, Target};

@@ -14,11 +14,12 @@
 use super::allocation::{Aim, Shares};
 use super::bound::Bound;
 use super::noise::{Noise, half};
-use super::render_loop::{RenderLoop, Samples, counts, viewed, width};
+use super::render_loop::{RenderLoop, counts, viewed, width};
 use super::target::{Measure, Reached, Target};
 use crate::film::Unseen;
 use crate::film::View;
 use crate::film::{Develop, FilmError, Layers, REPLICATES};
+use crate::render::Samples;
 use crate::scene::Chance;
 use std::time::{Duration, Instant};
 

@@ -3,19 +3,9 @@
 //! What is recorded beside the picture, and whether samples are shared out, changes nothing of the loop: a plain film is one with no layers.
 
 use crate::film::{Develop, FilmError, Layers, View};
-use crate::render::{PASS, Progress, Recorder, render_layers, render_planned};
-use std::ops::Range;
+use crate::render::{PASS, Progress, Recorder, Samples, render};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
-
-/// Samples that are added at once.
-#[derive(Clone, Copy, Debug)]
-pub enum Samples<'a> {
-    /// The same ones of every pixel, from the first up to the second number.
-    Same(u64, u64),
-    /// Of each pixel its own, row by row from the top.
-    Own(&'a [Range<u64>]),
-}
 
 /// A render on its way.
 #[derive(Clone, Copy)]
@@ -37,15 +27,12 @@ impl<'a> RenderLoop<'a> {
 
     /// Adds samples to what there is.
     pub fn add(&self, layers: &mut Layers, samples: Samples) {
-        match samples {
-            Samples::Same(from, to) => render_layers(self.recorder, layers, from..to, self.progress, self.cancel),
-            Samples::Own(each) => render_planned(self.recorder, layers, each, self.progress, self.cancel),
-        }
+        render(self.recorder, layers, samples, self.progress, self.cancel);
     }
 
     /// As many samples of every pixel.
     pub fn evenly(&self, layers: &mut Layers, samples: u64) {
-        self.add(layers, Samples::Same(0, samples));
+        self.add(layers, Samples::Same(0..samples));
     }
 
     /// The same with a look at what there is after each pass; `look` is also told whether that is the end.
@@ -57,7 +44,7 @@ impl<'a> RenderLoop<'a> {
     ) -> Result<(), E> {
         for from in (0..samples).step_by(PASS as usize) {
             let to = (from + u64::from(PASS)).min(samples);
-            self.add(layers, Samples::Same(from, to));
+            self.add(layers, Samples::Same(from..to));
             let ends = to == samples || self.cancelled();
             look(layers, ends)?;
             if ends {
@@ -79,7 +66,7 @@ impl<'a> RenderLoop<'a> {
                 break;
             }
             let pass = (fit as u64).clamp(1, u64::from(PASS)).min(most - done);
-            self.add(layers, Samples::Same(done, done + pass));
+            self.add(layers, Samples::Same(done..done + pass));
             done += pass;
         }
         done

@@ -3,9 +3,9 @@
 use super::allocation::{Aim, LEAST, Shares};
 use super::noise::Noise;
 use super::pilot::Pilot;
-use super::render_loop::{RenderLoop, Samples, counts, viewed, width};
+use super::render_loop::{RenderLoop, counts, viewed, width};
 use crate::film::{Develop, FilmError, Layers, REPLICATES};
-use crate::render::{Progress, Recorder};
+use crate::render::{Progress, Recorder, Samples};
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
@@ -110,7 +110,7 @@ impl<'a> SharedLoop<'a> {
             if self.0.cancelled() || !is_wanted(&next) {
                 return pilot;
             }
-            self.0.add(layers, Samples::Same(next.start, next.end));
+            self.0.add(layers, Samples::Same(next));
             // Replicates tell more by themselves.
             pilot.look(if layers.replicates().is_empty() { layers.film().pixels() } else { &[] });
         }

@@ -72,6 +72,11 @@ impl Layers {
         &self.film
     }
 
+    /// Returns the film alone.
+    pub fn into_film(self) -> Film {
+        self.film
+    }
+
     pub fn wanted(&self) -> Wanted {
         self.wanted
     }

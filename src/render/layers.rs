@@ -1,17 +1,21 @@
-//! A render that records more than the picture: features, replicates, bands of wavelength.
+//! The loop of every render: samples of the picture, and of what is recorded beside it: features, replicates, bands of wavelength.
 //!
 //! The same paths draw the same numbers as for a film alone, so that a picture with features or bands is the picture without
 //! them, bit by bit. Replicates are another cut of the samples (`film::replicates`): sample i is the sample i / R of replicate
 //! i mod R, and the picture has another noise than the one without them. So has a picture in halves, the fields of a chessboard: each draws
 //! numbers of its own, so that the samples of one may decide how many the other gets.
 
-use super::{Guides, Kernel, Progress, ROWS, passes};
+use super::{Guides, Kernel, PASS, Progress};
 use crate::film::{Layers, LayersRow, REPLICATES};
 use crate::sampler::{PixelSamples, Sampler};
 use crate::spectrum::{BinShares, Bins, Nodes};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Rows that a thread takes at a time. Left to rayon, two threads took a quarter of the picture, and one of them had nothing to do at the
+/// end of every pass while the other one finished its own.
+const ROWS: usize = 1;
 
 /// A kernel, and what fills the layers.
 pub struct Recorder<'a> {
@@ -125,43 +129,63 @@ impl Numbers {
     }
 }
 
-/// [`render`](super::render) into a film with layers.
-pub fn render_layers(
+/// Samples that are added at once.
+#[derive(Clone, Debug)]
+pub enum Samples<'a> {
+    /// The same ones of every pixel.
+    Same(Range<u64>),
+    /// Of each pixel its own, row by row from the top; pixels beyond them get none.
+    Own(&'a [Range<u64>]),
+}
+
+/// Adds samples to the pixels of a picture, or of a window of it, and to what is recorded beside them.
+///
+/// Which samples and which window change nothing in a pixel but what is added to it: ranges and windows rendered apart and
+/// merged are the same film. Once `cancel` is set no more rows are begun.
+pub fn render(
     recorder: &Recorder,
     layers: &mut Layers,
-    samples: Range<u64>,
+    samples: Samples,
     progress: &dyn Progress,
     cancel: &AtomicBool,
 ) {
-    let render_row = recorder.row_of_lanes();
-    let window = layers.film().window();
-    let mut rows = layers.rows_mut();
-    for pass in passes(samples, cancel) {
-        rows.par_iter_mut().zip(window.y0..window.y0 + window.height).with_max_len(ROWS).for_each(|(row, y)| {
-            if !cancel.load(Ordering::Relaxed) {
-                render_row(recorder, row, [window.x0, y], &|_| pass.clone());
-                progress.advance(u64::from(window.width) * (pass.end - pass.start));
+    match samples {
+        Samples::Same(all) => {
+            for pass in passes(all, cancel) {
+                recorder.add(layers, &|_| pass.clone(), progress, cancel);
             }
-        });
+        }
+        Samples::Own(each) => {
+            recorder.add(layers, &|at| each.get(at).cloned().unwrap_or_default(), progress, cancel);
+        }
     }
 }
 
-/// The same with a range of samples of its own for each pixel, row by row from the top. What lies beyond the plan is left.
-pub fn render_planned(
-    recorder: &Recorder,
-    layers: &mut Layers,
-    plan: &[Range<u64>],
-    progress: &dyn Progress,
-    cancel: &AtomicBool,
-) {
-    let render_row = recorder.row_of_lanes();
-    let window = layers.film().window();
-    let lines = plan.chunks(window.width as usize).zip(window.y0..window.y0 + window.height);
-    let mut rows = layers.rows_mut();
-    rows.par_iter_mut().zip(lines.collect::<Vec<_>>()).with_max_len(ROWS).for_each(|(row, (plan, y))| {
-        if !cancel.load(Ordering::Relaxed) {
-            render_row(recorder, row, [window.x0, y], &|at| plan.get(at).cloned().unwrap_or(0..0));
-            progress.advance(plan.iter().map(|samples| samples.end.saturating_sub(samples.start)).sum());
-        }
-    });
+/// Cuts samples into passes, until `cancel` is set.
+fn passes(samples: Range<u64>, cancel: &AtomicBool) -> impl Iterator<Item = Range<u64>> {
+    let pass = move |first: u64| first..(first + u64::from(PASS)).min(samples.end);
+    samples.clone().step_by(PASS as usize).take_while(|_| !cancel.load(Ordering::Relaxed)).map(pass)
+}
+
+impl Recorder<'_> {
+    /// Renders every row once, given which samples each pixel of the window gets.
+    fn add(
+        &self,
+        layers: &mut Layers,
+        samples: &(dyn Fn(usize) -> Range<u64> + Sync),
+        progress: &dyn Progress,
+        cancel: &AtomicBool,
+    ) {
+        let render_row = self.row_of_lanes();
+        let window = layers.film().window();
+        let width = window.width as usize;
+        let count = |samples: Range<u64>| samples.end.saturating_sub(samples.start);
+        layers.rows_mut().par_iter_mut().enumerate().with_max_len(ROWS).for_each(|(number, row)| {
+            if !cancel.load(Ordering::Relaxed) {
+                let of_row = |at: usize| samples(number * width + at);
+                render_row(self, row, [window.x0, window.y0 + number as u32], &of_row);
+                progress.advance((0..width).map(of_row).map(count).sum());
+            }
+        });
+    }
 }

@@ -27,11 +27,10 @@ mod vertex;
 mod visible;
 
 pub use features::{Guides, Seen};
-pub use layers::{Recorder, render_layers, render_planned};
+pub use layers::{Recorder, Samples, render};
 pub use tracer::COMPILED;
 pub use visible::{FirstHit, first_hits};
 
-use crate::film::{Film, Pixel};
 use crate::geometry::Ray;
 use crate::math::Lanes;
 use crate::sampler::{self, PixelSamples, Sampler};
@@ -42,17 +41,10 @@ use glam::Vec3;
 use media::{Buried, MediaStack};
 use models::RgbCurves;
 use path::Path;
-use rayon::prelude::*;
-use std::ops::Range;
-use std::sync::atomic::{AtomicBool, Ordering};
 use tracer::Tracer;
 
 /// Samples a pixel gets before the next pass over the picture.
 pub const PASS: u32 = 16;
-
-/// Rows that a thread takes at a time. Left to rayon, two threads took a quarter of the picture, and one of them had nothing to do at the
-/// end of every pass while the other one finished its own.
-const ROWS: usize = 1;
 
 /// Told how a render goes on, from any thread.
 pub trait Progress: Sync {
@@ -178,39 +170,4 @@ impl<'a> Kernel<'a> {
     fn samples(&self, pixel: [u32; 2]) -> PixelSamples {
         PixelSamples::new(self.sampler, self.scene.settings.seed, pixel)
     }
-
-    fn row<const N: usize>(&self, row: &mut [Pixel], [x0, y]: [u32; 2], samples: &Range<u64>) {
-        for (pixel, x) in row.iter_mut().zip(x0..) {
-            let mut numbers = self.samples([x, y]);
-            pixel.extend(samples.clone().map(|index| self.xyz(&self.trace::<N>([x, y], numbers.sample(index)))));
-        }
-    }
-}
-
-/// Adds samples `samples` of every pixel to a film of the scene's picture or a window of it.
-///
-/// Which samples and which window change nothing in a pixel but what is added to it: ranges and windows rendered apart and
-/// merged are the same film. Once `cancel` is set no more rows are begun.
-pub fn render(kernel: &Kernel, film: &mut Film, samples: Range<u64>, progress: &dyn Progress, cancel: &AtomicBool) {
-    let render_row = match kernel.scene.settings.lanes {
-        1 => Kernel::row::<1>,
-        4 => Kernel::row::<4>,
-        _ => Kernel::row::<8>,
-    };
-    let window = film.window();
-    for pass in passes(samples, cancel) {
-        let rows = film.pixels_mut().par_chunks_mut(window.width as usize);
-        rows.zip(window.y0..window.y0 + window.height).with_max_len(ROWS).for_each(|(row, y)| {
-            if !cancel.load(Ordering::Relaxed) {
-                render_row(kernel, row, [window.x0, y], &pass);
-                progress.advance(row.len() as u64 * (pass.end - pass.start));
-            }
-        });
-    }
-}
-
-/// Until `cancel` is set.
-fn passes(samples: Range<u64>, cancel: &AtomicBool) -> impl Iterator<Item = Range<u64>> {
-    let pass = move |first: u64| first..(first + u64::from(PASS)).min(samples.end);
-    samples.clone().step_by(PASS as usize).take_while(|_| !cancel.load(Ordering::Relaxed)).map(pass)
 }

@@ -14,10 +14,11 @@ pub mod plates;
 pub mod prism;
 pub mod random;
 
-use spectrel::film::{Film, Window};
-use spectrel::render::{Kernel, render};
+use spectrel::film::{Film, Layers, Wanted, Window};
+use spectrel::render::{Kernel, Recorder, Samples, render};
 use spectrel::scene::{Needs, Overrides, Scene, Text, resolve};
 use spectrel::spectrum::Library;
+use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 
 pub fn library() -> Library {
@@ -38,9 +39,15 @@ pub fn film(scene: &Scene) -> Film {
 pub fn film_by(kernel: &Kernel, scene: &Scene) -> Film {
     let [x0, y0, x1, y1] = scene.settings.crop;
     let window = Window { x0, y0, width: x1 - x0, height: y1 - y0 };
-    let mut film = Film::new([scene.settings.width, scene.settings.height], window).expect("a small film");
-    render(kernel, &mut film, 0..u64::from(scene.settings.samples), &(), &AtomicBool::new(false));
-    film
+    part(kernel, [scene.settings.width, scene.settings.height], window, 0..u64::from(scene.settings.samples))
+}
+
+/// Some samples of a window of an image of so many pixels.
+pub fn part(kernel: &Kernel, image: [u32; 2], window: Window, samples: Range<u64>) -> Film {
+    let mut layers = Layers::new(image, window, Wanted::default()).expect("a small film");
+    let recorder = Recorder::new(kernel, None, None);
+    render(&recorder, &mut layers, Samples::Same(samples), &(), &AtomicBool::new(false));
+    layers.into_film()
 }
 
 /// Mean XYZ of a film, cd/m².

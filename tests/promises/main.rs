@@ -11,12 +11,12 @@ mod scenes;
 use common::pictures::{write_exr, write_png};
 use scenes::Case;
 use spectrel::adaptive::noise::Noise;
-use spectrel::adaptive::{Goal, Measure, Reached, RenderLoop, Samples, Target};
+use spectrel::adaptive::{Goal, Measure, Reached, RenderLoop, Target};
 use spectrel::film::Unseen;
 use spectrel::film::View;
 use spectrel::film::{Develop, Exposure, Gamut, Layers, REPLICATES, Wanted, Window};
 use spectrel::fresnel::FresnelModel;
-use spectrel::render::{Kernel, Recorder};
+use spectrel::render::{Kernel, Recorder, Samples};
 use spectrel::report::Difference;
 use spectrel::report::difference::{Image, compare};
 use spectrel::scene::describe::ExposureValue;
@@ -216,7 +216,8 @@ fn brighter(case: &Case, seeds: u64, deciding: impl Fn(u64) -> (Picture, f64)) -
     let even: Vec<f64> = (0..seeds).map(|seed| brightness(&evenly(seed))).collect();
     let differences: Vec<f64> = pictures.iter().zip(&even).map(|(picture, even)| brightness(picture) - even).collect();
     let ((mean, error), (all, _)) = (common::mean_and_error(&differences), common::mean_and_error(&even));
-    (100.0 * mean / all, mean / error)
+    // No difference at all is none of any size, for however few pairs.
+    (100.0 * mean / all, if mean == 0.0 { 0.0 } else { mean / error })
 }
 
 /// Where the light that decides is found by one path in many, a picture is as bright in the mean as one that decides nothing: renders that

@@ -4,7 +4,7 @@ use crate::common::command::{folder, refused, run};
 use crate::common::{film, scene};
 use spectrel::adaptive::{Aim, Goal, Halves, Reached, RenderLoop, SharedLoop, Target};
 use spectrel::film::{Develop, Exposure, Film, Gamut, Layers, Replicates, Wanted, Window};
-use spectrel::render::{Kernel, Recorder, render_layers, render_planned};
+use spectrel::render::{Kernel, Recorder, Samples, render as add};
 use spectrel::scene::{Needs, Overrides, Scene};
 use spectrel::spectrum::{Matrix3, RgbSpace, ciede2000, lab_from_xyz};
 use std::sync::LazyLock;
@@ -162,9 +162,9 @@ fn planned(seed: u64, more: impl Fn(&Replicates) -> u64) -> Vec<[f64; 3]> {
     let recorder = Recorder::new(&kernel, None, None);
     let wanted = Wanted { replicates: true, ..Wanted::default() };
     let mut layers = Layers::new([32, 32], Window::full(32, 32), wanted).expect("small");
-    render_layers(&recorder, &mut layers, 0..16, &(), &AtomicBool::new(false));
+    add(&recorder, &mut layers, Samples::Same(0..16), &(), &AtomicBool::new(false));
     let plan: Vec<_> = layers.replicates().iter().map(|pixel| 16..16 + more(pixel)).collect();
-    render_planned(&recorder, &mut layers, &plan, &(), &AtomicBool::new(false));
+    add(&recorder, &mut layers, Samples::Own(&plan), &(), &AtomicBool::new(false));
     developed(layers.film(), &scene)
 }
 
@@ -230,11 +230,11 @@ fn selfishly_shared(seed: u64) -> Vec<[f64; 3]> {
     let kernel = Kernel::new(&scene, &needs);
     let recorder = Recorder::new(&kernel, None, None).in_halves();
     let mut layers = Layers::new([32, 32], Window::full(32, 32), Wanted::default()).expect("small");
-    render_layers(&recorder, &mut layers, 0..4, &(), &AtomicBool::new(false));
+    add(&recorder, &mut layers, Samples::Same(0..4), &(), &AtomicBool::new(false));
     let own = layers.film().pixels().iter().map(|pixel| pixel.variance_of_mean()[1].powf(0.4)).collect::<Vec<_>>();
     let mean = own.iter().sum::<f64>() / 1024.0;
     let plan: Vec<_> = own.iter().map(|own| 4..4 + (12.0 * own / mean).min(200.0) as u64).collect();
-    render_planned(&recorder, &mut layers, &plan, &(), &AtomicBool::new(false));
+    add(&recorder, &mut layers, Samples::Own(&plan), &(), &AtomicBool::new(false));
     developed(layers.film(), &scene)
 }
 

@@ -2,7 +2,7 @@
 
 use crate::common::{film, mean_and_error, scene};
 use spectrel::film::{Layers, Wanted, Window};
-use spectrel::render::{FirstHit, Guides, Kernel, Recorder, first_hits, render_layers};
+use spectrel::render::{FirstHit, Guides, Kernel, Recorder, Samples, first_hits, render};
 use spectrel::scene::{Needs, Overrides, Scene};
 use spectrel::spectrum::{Bins, Matrix3, RgbSpace};
 use std::sync::atomic::AtomicBool;
@@ -19,7 +19,7 @@ fn layers_of(scene: &Scene, wanted: Wanted, window: Window, ranges: &[[u64; 2]])
     let recorder = Recorder::new(&kernel, guides, bins.as_ref());
     let mut layers = Layers::new([scene.settings.width, scene.settings.height], window, wanted).expect("memory");
     for &[first, end] in ranges {
-        render_layers(&recorder, &mut layers, first..end, &(), &AtomicBool::new(false));
+        render(&recorder, &mut layers, Samples::Same(first..end), &(), &AtomicBool::new(false));
     }
     layers
 }
@@ -77,7 +77,7 @@ fn albedo_and_normal(text: &str, guides: impl Fn(&Scene, &Needs, RgbSpace) -> Gu
     let recorder = Recorder::new(&kernel, Some(guides(&scene, &needs, RgbSpace::Srgb)), None);
     let wanted = Wanted { features: true, ..Wanted::default() };
     let mut layers = Layers::new([4, 4], Window::full(4, 4), wanted).expect("memory");
-    render_layers(&recorder, &mut layers, 0..16, &(), &AtomicBool::new(false));
+    render(&recorder, &mut layers, Samples::Same(0..16), &(), &AtomicBool::new(false));
     let pixel = layers.features()[5];
     (pixel.albedo(), pixel.normal())
 }

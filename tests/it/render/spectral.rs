@@ -3,7 +3,7 @@
 use crate::common::{mean_and_error, prism, scene, t_of_pairs};
 use spectrel::film::{Layers, Wanted, Window};
 use spectrel::fresnel::exact::reflect;
-use spectrel::render::{Kernel, Recorder, render_layers};
+use spectrel::render::{Kernel, Recorder, Samples, render};
 use spectrel::scene::{Metal, Needs, Overrides, Scene, Surface};
 use spectrel::spectrum::{Bins, LUMENS_PER_WATT};
 use std::sync::atomic::AtomicBool;
@@ -26,7 +26,8 @@ fn layers(scene: &Scene, bins: &Bins) -> Layers {
     let size = [scene.settings.width, scene.settings.height];
     let wanted = Wanted { bands: bins.count(), ..Wanted::default() };
     let mut layers = Layers::new(size, Window::full(size[0], size[1]), wanted).expect("memory");
-    render_layers(&recorder, &mut layers, 0..u64::from(scene.settings.samples), &(), &AtomicBool::new(false));
+    let samples = Samples::Same(0..u64::from(scene.settings.samples));
+    render(&recorder, &mut layers, samples, &(), &AtomicBool::new(false));
     layers
 }
 
