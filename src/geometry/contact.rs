@@ -80,27 +80,28 @@ impl Body<'_> {
         };
         let either = |axis: DVec3| separates(axis) || separates(-axis);
         let centers = other.center() - self.center();
+        let mut nearest = centers;
         // A few steps first: most stones beside each other are apart, and have more facets than that.
         [DVec3::X, DVec3::Y, DVec3::Z, centers].into_iter().any(either)
-            || self.steps_part(other, FIRST_STEPS, separates)
+            || self.steps_part(other, &mut nearest, FIRST_STEPS, separates)
             || self.normals().into_iter().chain(other.normals()).any(either)
-            || self.steps_part(other, STEPS, separates)
+            || self.steps_part(other, &mut nearest, STEPS - FIRST_STEPS, separates)
     }
 
-    /// Whether a direction separates the two on the way to the point of {b − a} nearest to zero, which gives the best one.
-    fn steps_part(&self, other: &Body, steps: usize, separates: impl Fn(DVec3) -> bool) -> bool {
-        let mut nearest = other.center() - self.center();
+    /// Returns whether a direction separates the two on the way to the point of {b − a} nearest to zero, which gives the best one.
+    /// `nearest` is how far the way has come.
+    fn steps_part(&self, other: &Body, nearest: &mut DVec3, steps: usize, separates: impl Fn(DVec3) -> bool) -> bool {
         for _ in 0..steps {
-            if separates(nearest) {
+            if separates(*nearest) {
                 return true;
             }
-            let support = other.farthest(-nearest) - self.farthest(nearest);
-            let step = support - nearest;
+            let support = other.farthest(-*nearest) - self.farthest(*nearest);
+            let step = support - *nearest;
             let length2 = step.length_squared();
             if !(length2 > 0.0) {
                 return false;
             }
-            nearest += step * (-nearest.dot(step) / length2).clamp(0.0, 1.0);
+            *nearest += step * (-nearest.dot(step) / length2).clamp(0.0, 1.0);
         }
         false
     }
