@@ -6,7 +6,7 @@ use crate::geometry::{Mesh, Shape};
 use crate::light::Source;
 use crate::report::markup;
 use crate::scene::describe::ExposureValue;
-use crate::scene::{Decision, MediumId, Needs, Object, Overrides, Scene, SceneError, Surface, listed, resolve};
+use crate::scene::{Decision, MediumId, Needs, Object, Overrides, Scene, SceneError, listed, resolve};
 use crate::spectrum::{About, citation};
 use clap::Args;
 use glam::DVec3;
@@ -124,8 +124,8 @@ fn report(scene: &Scene) -> Report {
         shape: shape_kind(shape),
         material: object.material.clone(),
         kind: match scene.patterns.get(&object.surface) {
-            Some(pattern) => format!("{}, by {}", Surface::describe(&surface(object)), pattern.files.join(" and ")),
-            None => Surface::describe(&surface(object)),
+            Some(pattern) => format!("{}, by {}", surface(object).describe(), pattern.files.join(" and ")),
+            None => surface(object).describe(),
         },
         extent: Extent::of(shape, scene),
     });
