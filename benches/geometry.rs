@@ -3,6 +3,9 @@
 #[path = "../tests/common/meshes.rs"]
 #[allow(dead_code, reason = "a bench uses a part")]
 mod meshes;
+#[path = "../tests/common/random.rs"]
+#[allow(dead_code, reason = "a bench uses a part")]
+mod random;
 
 use std::hint::black_box;
 use std::sync::Arc;
@@ -10,6 +13,7 @@ use std::sync::Arc;
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use glam::{Affine3A, Vec3};
+use random::Random;
 use spectrel::geometry::{
     Brilliant, Convex, Disk, Mesh, Placed, Ray, Rectangle, Shape, ShapeId, Sphere, StepCut, Triangles, World,
 };
@@ -17,20 +21,6 @@ use spectrel::math::Vectors;
 
 fn main() {
     divan::main();
-}
-
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f32 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        let x = (self.0 ^ (self.0 >> 29)).wrapping_mul(0xbf58476d1ce4e5b9);
-        (x >> 40) as f32 / (1u64 << 24) as f32
-    }
-
-    fn vector(&mut self) -> Vec3 {
-        Vec3::new(self.unit(), self.unit(), self.unit()) * 2.0 - 1.0
-    }
 }
 
 const RAYS: usize = 1024;

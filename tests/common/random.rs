@@ -20,9 +20,14 @@ impl Random {
         ((self.next() as u64 * n as u64) >> 32) as usize
     }
 
+    /// In the cube from −1 to 1.
+    pub fn vector(&mut self) -> Vec3 {
+        Vec3::new(self.unit(), self.unit(), self.unit()) * 2.0 - 1.0
+    }
+
     pub fn direction(&mut self) -> Vec3 {
         loop {
-            let v = Vec3::new(self.unit(), self.unit(), self.unit()) * 2.0 - 1.0;
+            let v = self.vector();
             if (0.01..1.0).contains(&v.length_squared()) {
                 return v.normalize();
             }

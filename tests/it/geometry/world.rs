@@ -1,5 +1,6 @@
 //! The world against a loop over its shapes, against formulas, and where surfaces touch.
 
+use crate::common::random::Random;
 use glam::{Affine3A, DVec3, Quat, Vec3};
 use proptest::prelude::*;
 use spectrel::geometry::{
@@ -7,30 +8,6 @@ use spectrel::geometry::{
     World,
 };
 use spectrel::math::Vectors;
-
-/// Deterministic numbers in [0, 1): the fractional parts of multiples of irrational numbers, scrambled.
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f32 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        let x = (self.0 ^ (self.0 >> 29)).wrapping_mul(0xbf58476d1ce4e5b9);
-        (x >> 40) as f32 / (1u64 << 24) as f32
-    }
-
-    fn vector(&mut self) -> Vec3 {
-        Vec3::new(self.unit(), self.unit(), self.unit()) * 2.0 - 1.0
-    }
-
-    fn direction(&mut self) -> Vec3 {
-        loop {
-            let v = self.vector();
-            if (0.01..1.0).contains(&v.length_squared()) {
-                return v.normalize();
-            }
-        }
-    }
-}
 
 fn shape(random: &mut Random, place: f32, size: f32) -> Shape {
     let center = random.vector() * place;

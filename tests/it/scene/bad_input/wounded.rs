@@ -1,23 +1,12 @@
 //! Scenes with random wounds are scenes or errors, never panics.
 
+use crate::common::random::Random;
 use spectrel::scene::{Overrides, SceneError, Text, resolve};
 use spectrel::spectrum::Library;
 use std::time::{Duration, Instant};
 
-/// A small generator of its own: the test must find the same inputs on every machine.
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, end: usize) -> usize {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 % end as u64) as usize
-    }
-
-    fn of<'a>(&mut self, choices: &[&'a str]) -> &'a str {
-        choices[self.below(choices.len())]
-    }
+fn one_of<'a>(random: &mut Random, choices: &[&'a str]) -> &'a str {
+    choices[random.below(choices.len())]
 }
 
 const NASTY: [&str; 22] = [
@@ -53,12 +42,12 @@ fn wounded(scene: &str, random: &mut Random) -> String {
         match random.below(5) {
             0 => text[at] = random.below(256) as u8,
             1 => drop(text.drain(at..(at + 1 + random.below(12)).min(text.len()))),
-            2 => drop(text.splice(at..at, random.of(&NASTY).bytes())),
+            2 => drop(text.splice(at..at, one_of(random, &NASTY).bytes())),
             3 => {
                 let is_word = |byte: &u8| byte.is_ascii_alphanumeric() || b".-_\"".contains(byte);
                 let start = text[..at].iter().rposition(|byte| !is_word(byte)).map_or(0, |before| before + 1);
                 let end = text[at..].iter().position(|byte| !is_word(byte)).map_or(text.len(), |length| at + length);
-                text.splice(start..end.max(start), random.of(&NASTY).bytes());
+                text.splice(start..end.max(start), one_of(random, &NASTY).bytes());
             }
             _ => {
                 let mut lines: Vec<_> = text.split(|&byte| byte == b'\n').map(<[u8]>::to_vec).collect();
