@@ -64,6 +64,7 @@ fn check(name: &str, text: &str, expected: f64) {
 }
 
 #[test]
+#[ignore = "long: many seconds of paths"]
 fn matt_rooms_gather_what_their_walls_keep() {
     for (reflectance, samples) in [(0.99, 4), (0.995, 4), (0.998, 3), (0.9995, 1)] {
         let walls = format!("{{ diffuse = {{ reflectance = {reflectance} }} }}");

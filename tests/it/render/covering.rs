@@ -173,6 +173,7 @@ fn a_hair_changes_nothing() {
 }
 
 #[test]
+#[ignore = "long: many seconds of paths"]
 fn a_sheet_on_glass_is_seen_in_glass_from_within() {
     let folder = tempfile::tempdir().expect("a folder");
     let (n, k) = METAL;
@@ -229,6 +230,7 @@ fn a_sheet_between_two_solids_is_in_each_of_them() {
 
 /// A metal block under glass, beside it, and sunk into it with its top flush.
 #[test]
+#[ignore = "long: many seconds of paths"]
 fn opaque_solids_with_a_face_in_common_cover_it_too() {
     let folder = tempfile::tempdir().expect("a folder");
     let (n, k) = METAL;

@@ -48,6 +48,7 @@ fn layer((n, absorption): (f64, f64), thickness: f64) -> Layer {
 const LAKE: &str = "[[objects]]\nmaterial = \"water\"\nshape.box = { size = [100, 100, 5], center = [0, 0, -2.5] }\n";
 
 #[test]
+#[ignore = "long: many seconds of paths"]
 fn a_block_of_diamond_half_under_water_is_in_two_media() {
     let block = "[[objects]]\nmaterial = \"diamond\"\nshape.box = { size = [2, 2, 2] }\n";
     let folder = tempfile::tempdir().expect("a folder");

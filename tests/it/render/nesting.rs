@@ -45,6 +45,7 @@ fn through(count: usize, kept: usize, cos: f64) -> f64 {
 }
 
 #[test]
+#[ignore = "long: many seconds of paths"]
 fn no_shell_is_forgotten_however_many_there_are() {
     for count in [8, 9, 23] {
         for cos in [1.0, 0.6] {

@@ -121,6 +121,7 @@ fn bow(ior: &str, nm: f64) -> f64 {
 }
 
 #[test]
+#[ignore = "long: many seconds of paths"]
 fn the_bow_stands_where_descartes_has_it_in_red_green_and_blue() {
     let mut bows = Vec::new();
     for nm in [656.3, 546.1, 435.8] {
@@ -133,6 +134,7 @@ fn the_bow_stands_where_descartes_has_it_in_red_green_and_blue() {
 }
 
 #[test]
+#[ignore = "long: many seconds of paths"]
 fn the_bow_of_sodium_light_stands_at_42_degrees() {
     let found = bow("\"H2O/daimon-2007-20c\"", 589.3);
     println!("sodium: {found:.3}°");

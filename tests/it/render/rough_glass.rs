@@ -67,6 +67,7 @@ fn a_sheet_that_nothing_comes_back_from_shows_its_reflectance() {
 }
 
 #[test]
+#[ignore = "long: many seconds of paths"]
 fn a_lamp_in_rough_glass_shows_through_it() {
     let lamp = "[[objects]]\nshape.rectangle = { size = [1990, 1990], center = [0, 0, 0.3] }
         emission = { spectrum = \"E\", luminance = 100 }\n";
@@ -110,6 +111,7 @@ fn room(object: &str, light: Option<&str>) -> String {
 }
 
 #[test]
+#[ignore = "long: many seconds of paths"]
 fn lamps_around_rough_glass_are_found_both_ways() {
     for alpha in [0.02, 0.1, 0.4, 1.0] {
         for (kind, absorption) in [("clear", 0.0), ("coloured", 0.5)] {
@@ -159,6 +161,7 @@ fn a_boundary_that_is_none_keeps_all_light() {
 }
 
 #[test]
+#[ignore = "long: many seconds of paths"]
 fn lanes_of_rough_sf11_agree_with_single_wavelengths() {
     for alpha in [0.05, 0.5] {
         let sf11 = format!("materials.stone = {{ dielectric = {{ ior = \"SCHOTT/sf11\", roughness = {alpha} }} }}");
@@ -171,6 +174,7 @@ fn lanes_of_rough_sf11_agree_with_single_wavelengths() {
 }
 
 #[test]
+#[ignore = "long: many seconds of paths"]
 fn the_lane_test_sees_an_index_one_per_cent_too_high() {
     for alpha in [0.05, 0.5] {
         let glass = |n: f64| format!("materials.stone = {{ dielectric = {{ ior = {n}, roughness = {alpha} }} }}");

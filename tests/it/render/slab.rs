@@ -72,6 +72,7 @@ fn a_plate_shows_it_to_one_wavelength_alone() {
 }
 
 #[test]
+#[ignore = "long: many seconds of paths"]
 fn a_plate_that_disperses_shows_it_at_its_index() {
     let n = library().ior("SCHOTT/n-bk7", Path::new("")).expect("in the library").n.at(589.3);
     assert!((n - 1.5167).abs() < 1e-4, "the catalogue's n_D is 1.51673: {n}");
